@@ -182,8 +182,7 @@ void RatioTable::print_triangles() const {
 namespace {
 
 using namespace limitcheck;
-using bench::Route;
-using bench::Shape;
+using bench::Route, bench::Shape;
 
 /// A quad at each corner of each face, between the middles of its sides and its own middle.
 data::ControlMesh quads_of(const data::ControlMesh& mesh) {

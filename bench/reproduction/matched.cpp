@@ -10,7 +10,6 @@
 
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
-#include "bench/reproduction/turning.h"
 #include "data/generators/bumpy_sphere.h"
 #include "verify/cli/screen.h"
 #include "verify/picture/judge.h"

@@ -48,11 +48,7 @@ std::string base64(const std::vector<Number>& numbers) {
   return text;
 }
 
-using verify::cross;
-using verify::dot;
-using verify::norm;
-using verify::Vector;
-using verify::operator-;
+using verify::cross, verify::dot, verify::norm, verify::Vector, verify::operator-;
 
 struct Wanted {
   std::string subject, options, mesh;

@@ -18,10 +18,7 @@ namespace limitcheck::bench {
 
 namespace {
 
-using verify::cross;
-using verify::norm;
-using verify::Vector;
-using verify::operator-;
+using verify::cross, verify::norm, verify::Vector, verify::operator-;
 
 constexpr int kDepth = 4;
 

@@ -11,7 +11,6 @@
 #include "bench/render/renderer.h"
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
-#include "bench/reproduction/turning.h"
 #include "data/generators/bumpy_sphere.h"
 #include "verify/cli/screen.h"
 

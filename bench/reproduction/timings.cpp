@@ -9,7 +9,6 @@
 
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
-#include "bench/reproduction/turning.h"
 #include "data/generators/bumpy_sphere.h"
 
 namespace limitcheck::bench {
@@ -86,14 +85,12 @@ Json time_per_point(bool quick) {
     if (depth >= 5) widest = std::max(widest, times[times.size() / 2] / times.front());
   }
   const auto [least, most] = std::minmax_element(nanoseconds.begin() + 2, nanoseconds.end());
-  return {
-      {"id", "T6"},
-      {"outcome", outcome(1.25 * *least / *most, 1, widest)},
-      {"figures",
-       fmt::format("Asked for: depths 5, 6 and 7 within 25 %; they lie within {:.0f} %; the median of the "
-                   "repetitions was up to {:.0f} % above the least",
-                   100 * (*most / *least - 1), 100 * (widest - 1))},
-      {"series", Json::array({series("nanoseconds per limit point", "depth", depths, nanoseconds)})}};
+  return {{"id", "T6"},
+          {"outcome", outcome(1.25 * *least / *most, 1, widest)},
+          {"figures", fmt::format("Asked for: depths 5, 6 and 7 within 25 %; they lie within {:.0f} %; the "
+                                  "median of the repetitions was up to {:.0f} % above the least",
+                                  100 * (*most / *least - 1), 100 * (widest - 1))},
+          {"series", Json::array({series("nanoseconds per limit point", "depth", depths, nanoseconds)})}};
 }
 
 /// 800 faces with project-sphere, drawn.
@@ -102,15 +99,14 @@ Json ten_frames(const Json& spheres) {
     if (row["faces"] != 800) continue;
     const Json& drawn = row["sliding_window_drawn"];
     const double fps = drawn["frames_per_second"], triangles = row["triangles"];
-    return {
-        {"id", "T7"},
-        {"outcome", outcome(fps, 10, drawn["spread"].get<double>())},
-        {"figures",
-         fmt::format("{:.0f} triangles; {:.0f} frames per second of processor time drawn by {}, {:.0f} not "
-                     "drawn",
-                     triangles, fps, spheres["renderer"].get<std::string>(),
-                     row["sliding_window"]["frames_per_second"].get<double>())},
-        {"series", Json::array()}};
+    return {{"id", "T7"},
+            {"outcome", outcome(fps, 10, drawn["spread"].get<double>())},
+            {"figures",
+             fmt::format(
+                 "{:.0f} triangles; {:.0f} frames per second of processor time drawn by {}, {:.0f} not drawn",
+                 triangles, fps, spheres["renderer"].get<std::string>(),
+                 row["sliding_window"]["frames_per_second"].get<double>())},
+            {"series", Json::array()}};
   }
   return nullptr;
 }

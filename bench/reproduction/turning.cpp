@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/reproduction/turning.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
-#include "bench/reproduction/turning.h"
 #include "data/generators/bumpy_sphere.h"
 
 namespace limitcheck::bench {

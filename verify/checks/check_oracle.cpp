@@ -26,10 +26,7 @@
 namespace limitcheck::verify {
 namespace {
 
-using data::ControlMesh;
-using reference::CertifiedPoint;
-using reference::Enclosure3;
-using reference::Parameter;
+using data::ControlMesh, reference::CertifiedPoint, reference::Enclosure3, reference::Parameter;
 using Big = reference::Decimal50;
 namespace cc = reference::catmull_clark;
 

@@ -4,7 +4,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -100,11 +99,7 @@ verify::Report begin_report(const AuditArguments& a, const verify::Depths& depth
 std::optional<Sampling> parse_sample(const std::string& text) {
   if (text.empty()) return std::nullopt;
   Sampling sampling;
-  const char* last = text.data() + text.size();
-  std::from_chars_result read = std::from_chars(text.data(), last, sampling.faces);
-  if (read.ec == std::errc() && read.ptr != last && *read.ptr == ':')
-    read = std::from_chars(read.ptr + 1, last, sampling.seed);
-  if (read.ec != std::errc() || read.ptr != last || sampling.faces == 0)
+  if (read_numbers(text, ':', sampling.faces, sampling.seed) == 0 || sampling.faces == 0)
     throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
   return sampling;
 }

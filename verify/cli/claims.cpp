@@ -16,9 +16,7 @@ namespace limitcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using verify::Claim;
-using verify::ClaimOutcome;
-using verify::ClaimResult;
+using verify::Claim, verify::ClaimOutcome, verify::ClaimResult;
 
 struct Arguments {
   std::vector<std::string> ids;

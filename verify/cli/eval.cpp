@@ -1,27 +1,34 @@
 // SPDX-License-Identifier: MIT
 // limitcheck eval: the exact surface at one point.
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <tbb/info.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "data/error.h"
+#include "reference/surface/certified.h"
 #include "verify/audit/at_point.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/eval.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/evidence/face_depths.h"
 
 namespace limitcheck::cli {
 namespace {
 
-using reference::CertifiedEvaluator;
-using reference::Parameter;
+using reference::CertifiedEvaluator, reference::CertifiedPoint, reference::DerivativeLimit,
+    reference::Enclosure, reference::Enclosure3, reference::Fate, reference::NormalKind, reference::Parameter,
+    reference::Radius;
 
 struct Request {
   std::string mesh, face, u, v;
@@ -41,18 +48,167 @@ struct FaceAndCorner {
   std::optional<int> corner;
 };
 
+// What was evaluated.
+struct EvaluatedPoint {
+  const Request& request;
+  MeshScheme chosen;
+  FaceAndCorner at;
+  std::vector<std::string> parameters;  // exact: l0, l1, l2 of Loop's scheme, u, v of Catmull-Clark's
+};
+
+const Words<NormalKind> kNormalKinds{{"regular", NormalKind::kRegular},
+                                     {"no_tangent_plane", NormalKind::kNoTangentPlane},
+                                     {"fallback", NormalKind::kFallback},
+                                     {"arbitrary", NormalKind::kArbitrary}};
+const Words<Fate> kFates{
+    {"value", Fate::kValue}, {"zero", Fate::kZero}, {"no_limit", Fate::kNoLimit}, {"grows", Fate::kGrows}};
+
+nlohmann::ordered_json json_vector(const Enclosure3& v) {
+  return {v[0].value, v[1].value, v[2].value};
+}
+nlohmann::ordered_json json_vector(const Enclosure& e) {
+  return e.value;
+}
+
+Radius radius(const Enclosure3& v) {
+  return std::max({v[0].radius, v[1].radius, v[2].radius});
+}
+Radius radius(const Enclosure& e) {
+  return e.radius;
+}
+
+nlohmann::ordered_json json_of(const DerivativeLimit& limit) {
+  return {{"fate", word_of(kFates, limit.fate)}, {"eigenvalue", limit.eigenvalue}, {"growth", limit.growth}};
+}
+
+// What is said beside derivatives of one order at an extraordinary corner, or in their place.
+std::string reason(const DerivativeLimit& limit, bool along_boundary, bool degenerate) {
+  if (limit.fate == Fate::kValue) return "";
+  if (limit.fate == Fate::kZero)
+    return fmt::format("  (zero at such a corner: {:.3g} times as much after each halving of the distance)",
+                       limit.growth);
+  if (degenerate) return "need not exist at this extraordinary corner, where the tangents degenerate";
+  const std::string how =
+      limit.fate == Fate::kGrows
+          ? fmt::format("it grows {:.6g}-fold with each halving of the distance to this extraordinary corner",
+                        limit.growth)
+          : "it depends on the direction, or grows like the logarithm of the distance to this extraordinary "
+            "corner";
+  return fmt::format("does not exist in general: {} (eigenvalue {:.6g}){}", how, limit.eigenvalue,
+                     along_boundary ? ", unless it runs along the boundary or crease" : "");
+}
+
+// A number, or, where no double of full precision is that small or large, a string of the same form.
+nlohmann::ordered_json number(const Radius& r) {
+  const double value = r.as_double();
+  if (r.is_zero() || std::isnormal(value)) return value;
+  if (r == Radius(std::numeric_limits<double>::infinity(), 0)) return nullptr;
+  return r.to_string();
+}
+
+void print_json(const EvaluatedPoint& at, const CertifiedPoint& p) {
+  nlohmann::ordered_json json, radii;
+  json["mesh"] = at.request.mesh;
+  json["scheme"] = name_of(at.chosen.scheme);
+  json["faces_cut"] = at.chosen.cut;
+  json["face"] = at.at.face;
+  const bool loop = at.chosen.scheme == data::Scheme::kLoop;
+  if (!loop) json["corner"] = at.at.corner ? nlohmann::ordered_json(*at.at.corner) : nlohmann::ordered_json();
+  json[loop ? "barycentric" : "parameters"] = at.parameters;
+  json["digits"] = at.request.digits;
+  json["weights"] =
+      loop ? nlohmann::ordered_json(word_of(kWeights, at.request.weights)) : nlohmann::ordered_json();
+  const auto add = [&](const char* key, const auto& value) {
+    json[key] = json_vector(value);
+    radii[key] = number(radius(value));
+  };
+  const auto add_maybe = [&](const char* key, const auto& value) {
+    if (value) return add(key, *value);
+    json[key] = radii[key] = nullptr;
+  };
+  add("position", p.position);
+  add("d1", p.d1);
+  add("d2", p.d2);
+  json["derivatives_exist"] = p.first_exist;
+  json["second_derivatives_exist"] = p.d11.has_value();
+  // At an extraordinary corner, which alone has tangents of its own.
+  json["first_limit"] = p.t1 ? json_of(p.limits.first) : nlohmann::ordered_json();
+  json["second_limit"] = p.t1 ? json_of(p.limits.second) : nlohmann::ordered_json();
+  add_maybe("tangent1", p.t1);
+  add_maybe("tangent2", p.t2);
+  add("normal", p.normal);
+  json["normal_kind"] = word_of(kNormalKinds, p.normal_kind);
+  add_maybe("d11", p.d11);
+  add_maybe("d12", p.d12);
+  add_maybe("d22", p.d22);
+  add_maybe("gaussian_curvature", p.gaussian_curvature);
+  add_maybe("mean_curvature", p.mean_curvature);
+  json["radius"] = number(p.radius);
+  json["radii"] = radii;
+  say("{}", dumped(json, 2));
+}
+
+void print_text(const EvaluatedPoint& at, const CertifiedPoint& p) {
+  // How the derivatives by the two parameters are written.
+  const bool loop = at.chosen.scheme == data::Scheme::kLoop;
+  const std::string a = loop ? "l1" : "u", b = loop ? "l2" : "v";
+  const std::string by_a = "d/d" + a, by_b = "d/d" + b;
+  const std::string by_aa = fmt::format("d2/d{0}d{0}", a), by_ab = fmt::format("d2/d{}d{}", a, b),
+                    by_bb = fmt::format("d2/d{0}d{0}", b);
+  const auto within = [](const auto& value) {
+    const Radius r = radius(value);
+    return r.is_zero() ? "  exact" : "  +-" + r.to_string();
+  };
+  const auto line = [&](const std::string& what, const Enclosure3& v, const std::string& note = "") {
+    say("{:<12}{}  {}  {}{}{}\n", what, v[0].value, v[1].value, v[2].value, within(v), note);
+  };
+  const auto absent = [](const std::string& what, const std::string& why) { say("{:<12}{}\n", what, why); };
+  say("{}\n{} face {}{} at ({})\n", scheme_line({at.chosen}, at.request.options), at.request.mesh, at.at.face,
+      at.at.corner ? fmt::format(" corner {}", *at.at.corner) : "", fmt::join(at.parameters, ", "));
+  line("position", p.position);
+  const bool degenerate = p.normal_kind == NormalKind::kFallback || p.normal_kind == NormalKind::kArbitrary;
+  const std::string first = reason(p.limits.first, p.limits.along_boundary, degenerate),
+                    second = reason(p.limits.second, p.limits.along_boundary, degenerate);
+  if (p.first_exist) {
+    line(by_a, p.d1, first);
+    line(by_b, p.d2, first);
+  } else {
+    absent(by_a, first);
+    absent(by_b, first);
+  }
+  if (p.t1) {
+    line("tangent 1", *p.t1, "  (direction only)");
+    line("tangent 2", *p.t2, "  (direction only)");
+  }
+  line("normal", p.normal,
+       p.normal_kind == NormalKind::kNoTangentPlane ? "  (the surface has no tangent plane here)"
+       : p.normal_kind == NormalKind::kFallback     ? "  (tangents degenerate: from the control faces)"
+       : p.normal_kind == NormalKind::kArbitrary    ? "  (everything degenerate: arbitrary)"
+                                                    : "");
+  if (p.d11) {
+    line(by_aa, *p.d11, second);
+    line(by_ab, *p.d12, second);
+    line(by_bb, *p.d22, second);
+  } else {
+    for (const std::string& what : {by_aa, by_ab, by_bb}) absent(what, second);
+  }
+  if (p.gaussian_curvature) {
+    say("{:<12}{}{}\n", "Gaussian K", p.gaussian_curvature->value, within(*p.gaussian_curvature));
+    say("{:<12}{}{}\n", "mean H", p.mean_curvature->value, within(*p.mean_curvature));
+  }
+  say("certified: every number is that near the truth; the largest radius of a vector is {}\n",
+      p.radius.to_string(3));
+}
+
 // "17" or "17:2".
 FaceAndCorner parse_face(const std::string& text) {
-  const auto number = [&](std::string_view part, auto& value) {
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    if (error != std::errc() || end != part.data() + part.size())
-      throw data::ArgumentError(
-          fmt::format("FACE is a number from 0 in file order, or FACE:CORNER, not '{}'", text));
-  };
   FaceAndCorner result;
-  const std::size_t colon = text.find(':');
-  number(std::string_view(text).substr(0, colon), result.face);
-  if (colon != std::string::npos) number(std::string_view(text).substr(colon + 1), result.corner.emplace());
+  int corner = 0;
+  const int count = read_numbers(text, ':', result.face, corner);
+  if (count == 0)
+    throw data::ArgumentError(
+        fmt::format("FACE is a number from 0 in file order, or FACE:CORNER, not '{}'", text));
+  if (count == 2) result.corner = corner;
   return result;
 }
 
@@ -96,9 +252,7 @@ void round_to_float(data::ControlMesh& mesh) {
 std::pair<std::uint32_t, std::uint32_t> fraction(const Parameter& parameter) {
   const std::string text = parameter.to_string();
   std::pair<std::uint32_t, std::uint32_t> result{0, 1};
-  const char* last = text.data() + text.size();
-  auto read = std::from_chars(text.data(), last, result.first);
-  if (read.ec == std::errc() && read.ptr != last && *read.ptr == '/')
+  if (read_numbers(text, '/', result.first, result.second) == 0)
     read = std::from_chars(read.ptr + 1, last, result.second);
   if (read.ec != std::errc() || read.ptr != last)
     throw data::ArgumentError(fmt::format("--subject: {} is no lattice point", text));
@@ -195,14 +349,7 @@ int run(const Request& request) {
   const reference::CertifiedPoint point =
       evaluator(request, opened)
           .evaluate(static_cast<int>(at.face), at.corner.value_or(0), u, v, request.digits);
-  EvaluatedPoint evaluated{request.mesh,
-                           scheme_line({opened.chosen}, request.options),
-                           opened.chosen,
-                           word_of(kWeights, request.weights),
-                           at.face,
-                           at.corner,
-                           {u.to_string(), v.to_string()},
-                           request.digits};
+  EvaluatedPoint evaluated{request, opened.chosen, at, {u.to_string(), v.to_string()}};
   if (opened.chosen.scheme == data::Scheme::kLoop)
     evaluated.parameters.insert(evaluated.parameters.begin(), Parameter::complement(u, v).to_string());
   request.json ? print_json(evaluated, point) : print_text(evaluated, point);

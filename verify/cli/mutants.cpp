@@ -17,8 +17,7 @@ namespace limitcheck::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using verify::Kill;
-using verify::KillTable;
+using verify::Kill, verify::KillTable;
 
 std::string to_json(const KillTable& table) {
   Json out{{"program", "limitcheck mutants"}, {"version", LIMITCHECK_VERSION}, {"held", table.held()}};

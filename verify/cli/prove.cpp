@@ -18,7 +18,6 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/proof/proof_report.h"
 #include "verify/proof/proof_set.h"
 #include "verify/report/json.h"
 

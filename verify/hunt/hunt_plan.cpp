@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/hunt/hunt_plan.h"
+#include "verify/hunt/hunt.h"
 
 #include <fmt/core.h>
 

@@ -14,7 +14,6 @@
 #include "verify/evidence/cells.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/hunt/hunt.h"
-#include "verify/hunt/hunt_plan.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"
 

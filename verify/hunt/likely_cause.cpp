@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/hunt/likely_cause.h"
+#include "verify/hunt/hunt_report.h"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/mutants/asked.h"
+#include "verify/mutants/faulty_subjects.h"
 
 #include <fmt/core.h>
 

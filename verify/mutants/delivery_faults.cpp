@@ -12,11 +12,10 @@
 #include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify {
-namespace {
 
-using A = const Asked&;
-using D = Delivered&;
-using Vector = Delivered::Vector;
+using namespace rows;
+
+namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -98,145 +97,140 @@ bool is_extraordinary(A a, std::int32_t v) {
   return a.inside(v) && a.faces(v) != 6;
 }
 
-Change row(const char* name, const char* description, const char* check, std::function<void(A, D)> deliver) {
-  return {.name = name, .description = description, .check = check, .deliver = std::move(deliver)};
-}
 Change memory(const char* name, const char* description, bool Delivered::*what) {
-  return row(name, description, "written", [what](A, D out) { out.*what = true; });
+  return deliver(name, description, "written", [what](A, D out) { out.*what = true; });
 }
 
 std::vector<Change> of_all_meshes() {
   return {
       // Values.
-      row("nan_position", "one position is NaN", "finite",
-          [](A, D out) { out.positions[some_vertex(out)][1] = kNan; }),
-      row("infinite_position", "one position is infinite", "finite",
-          [](A, D out) { out.positions[some_vertex(out)][1] = std::numeric_limits<double>::infinity(); }),
-      row("nan_normal", "one normal is NaN", "finite", [](A, D out) { some_normal(out)[1] = kNan; }),
-      row("unwritten_position", "one position is left unwritten", "written",
-          [](A, D out) { out.positions[some_vertex(out)].fill(unwritten()); }),
-      row("unwritten_normal", "one normal is left unwritten", "written",
-          [](A, D out) { some_normal(out).fill(unwritten()); }),
-      row("unwritten_triangle", "the corners of one triangle are left unwritten", "written",
-          [](A, D out) { out.triangles[some_triangle(out)].fill(0xFFFFFFFFU); }),
-      row("unwritten_provenance", "the place of one vertex is left unwritten", "written",
-          [](A, D out) {
-            out.provenance[some_vertex(out)] = {-1, 0xFFFFFFFFU, 0xFFFFFFFFU, 0xFFFFFFFFU};
-          }),
-      row("unwritten_triangle_face", "the control face of one triangle is left unwritten", "written",
-          [](A, D out) { out.triangle_face[some_triangle(out)] = -1; }),
-      row("wrong_limit_mask", "points at control vertices lie a hundredth of the way to the control vertex",
-          "positions",
-          [](A a, D out) {
-            at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-              for (std::size_t c = 0; c < 3; ++c)
-                out.positions[v][c] += 0.01 * (a.mesh.positions[at][c] - out.positions[v][c]);
-            });
-          }),
-      row("wrong_edge_mask", "points that are not control vertices are 1e-5 too far from the origin",
-          "positions",
-          [](A a, D out) {
-            elsewhere(a, out, [&](std::size_t v) {
-              for (double& x : out.positions[v]) x *= 1.00001;
-            });
-          }),
-      row("unmoved_vertices", "points at control vertices are the control vertices", "refined-positions",
-          [](A a, D out) {
-            at_control_vertices(
-                a, out, [&](std::size_t v, std::int32_t at) { out.positions[v] = a.mesh.positions[at]; });
-          }),
-      row("snapped_positions", "positions are multiples of a fiftieth: small triangles collapse", "positions",
-          [](A, D out) {
-            for (Vector& p : out.positions)
-              for (double& x : p) x = std::round(x * 50) / 50;
-          }),
-      row("flipped_normals", "all normals point inside", "normals",
-          [](A, D out) {
-            some_normal(out);
-            for (Vector& n : out.normals) n = {-n[0], -n[1], -n[2]};
-          }),
-      row("one_flipped_normal", "one normal points inside", "normals",
-          [](A, D out) {
-            for (double& x : some_normal(out)) x = -x;
-          }),
-      row("long_normals", "normals have length 2", "normal-length",
-          [](A, D out) {
-            some_normal(out);
-            for (Vector& n : out.normals)
-              for (double& x : n) x *= 2;
-          }),
+      deliver("nan_position", "one position is NaN", "finite",
+              [](A, D out) { out.positions[some_vertex(out)][1] = kNan; }),
+      deliver("infinite_position", "one position is infinite", "finite",
+              [](A, D out) { out.positions[some_vertex(out)][1] = std::numeric_limits<double>::infinity(); }),
+      deliver("nan_normal", "one normal is NaN", "finite", [](A, D out) { some_normal(out)[1] = kNan; }),
+      deliver("unwritten_position", "one position is left unwritten", "written",
+              [](A, D out) { out.positions[some_vertex(out)].fill(unwritten()); }),
+      deliver("unwritten_normal", "one normal is left unwritten", "written",
+              [](A, D out) { some_normal(out).fill(unwritten()); }),
+      deliver("unwritten_triangle", "the corners of one triangle are left unwritten", "written",
+              [](A, D out) { out.triangles[some_triangle(out)].fill(0xFFFFFFFFU); }),
+      deliver("unwritten_provenance", "the place of one vertex is left unwritten", "written",
+              [](A, D out) {
+                out.provenance[some_vertex(out)] = {-1, 0xFFFFFFFFU, 0xFFFFFFFFU, 0xFFFFFFFFU};
+              }),
+      deliver("unwritten_triangle_face", "the control face of one triangle is left unwritten", "written",
+              [](A, D out) { out.triangle_face[some_triangle(out)] = -1; }),
+      deliver("wrong_limit_mask",
+              "points at control vertices lie a hundredth of the way to the control vertex", "positions",
+              [](A a, D out) {
+                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
+                  for (std::size_t c = 0; c < 3; ++c)
+                    out.positions[v][c] += 0.01 * (a.mesh.positions[at][c] - out.positions[v][c]);
+                });
+              }),
+      deliver("wrong_edge_mask", "points that are not control vertices are 1e-5 too far from the origin",
+              "positions",
+              [](A a, D out) {
+                elsewhere(a, out, [&](std::size_t v) {
+                  each(out.positions[v], [](double x) { return x * 1.00001; });
+                });
+              }),
+      deliver("unmoved_vertices", "points at control vertices are the control vertices", "refined-positions",
+              [](A a, D out) {
+                at_control_vertices(
+                    a, out, [&](std::size_t v, std::int32_t at) { out.positions[v] = a.mesh.positions[at]; });
+              }),
+      deliver("snapped_positions", "positions are multiples of a fiftieth: small triangles collapse",
+              "positions",
+              [](A, D out) {
+                for (Vector& p : out.positions) each(p, [](double x) { return std::round(x * 50) / 50; });
+              }),
+      deliver("flipped_normals", "all normals point inside", "normals",
+              [](A, D out) {
+                some_normal(out);
+                for (Vector& n : out.normals) each(n, std::negate<>());
+              }),
+      deliver("one_flipped_normal", "one normal points inside", "normals",
+              [](A, D out) { each(some_normal(out), std::negate<>()); }),
+      deliver("long_normals", "normals have length 2", "normal-length",
+              [](A, D out) {
+                some_normal(out);
+                for (Vector& n : out.normals) each(n, [](double x) { return x * 2; });
+              }),
 
       // Which point is which.
-      row("shifted_provenance", "each vertex has the provenance of the next", "positions",
-          [](A, D out) {
-            some_vertex(out);
-            std::rotate(out.provenance.begin(), out.provenance.begin() + 1, out.provenance.end());
-          }),
-      row("mirrored_provenance", "l1 and l2 are exchanged", "orientation",
-          [](A, D out) {
-            for (lc_provenance& p : out.provenance) std::swap(p.i, p.j);
-          }),
-      row("swapped_points", "two vertices have each other's position and normal", "positions",
-          [](A, D out) {
-            const auto [a, b, c] = out.triangles[some_triangle(out)];
-            std::swap(out.positions[a], out.positions[b]);
-            if (!out.normals.empty()) std::swap(out.normals[a], out.normals[b]);
-          }),
-      row("provenance_out_of_range", "one vertex lies outside its face", "written",
-          [](A, D out) {
-            lc_provenance& p = out.provenance[some_vertex(out)];
-            p.i = p.denominator + 1;
-          }),
+      deliver("shifted_provenance", "each vertex has the provenance of the next", "positions",
+              [](A, D out) {
+                some_vertex(out);
+                std::rotate(out.provenance.begin(), out.provenance.begin() + 1, out.provenance.end());
+              }),
+      deliver("mirrored_provenance", "l1 and l2 are exchanged", "orientation",
+              [](A, D out) {
+                for (lc_provenance& p : out.provenance) std::swap(p.i, p.j);
+              }),
+      deliver("swapped_points", "two vertices have each other's position and normal", "positions",
+              [](A, D out) {
+                const auto [a, b, c] = out.triangles[some_triangle(out)];
+                std::swap(out.positions[a], out.positions[b]);
+                if (!out.normals.empty()) std::swap(out.normals[a], out.normals[b]);
+              }),
+      deliver("provenance_out_of_range", "one vertex lies outside its face", "written",
+              [](A, D out) {
+                lc_provenance& p = out.provenance[some_vertex(out)];
+                p.i = p.denominator + 1;
+              }),
 
       // Triangles.
-      row("flipped_orientation", "all triangles are clockwise", "orientation",
-          [](A, D out) {
-            for (auto& t : out.triangles) std::swap(t[1], t[2]);
-          }),
-      row("one_flipped_triangle", "one triangle is clockwise", "orientation",
-          [](A, D out) {
-            auto& t = out.triangles[some_triangle(out)];
-            std::swap(t[1], t[2]);
-          }),
-      row("missing_triangle", "one triangle is missing", "coverage",
-          [](A, D out) { out.erase_triangle(some_triangle(out)); }),
-      row("duplicated_triangle", "one triangle is there twice", "coverage",
-          [](A, D out) {
-            const std::size_t t = some_triangle(out);
-            out.add_triangle(out.triangles[t], out.triangle_face[t]);
-          }),
-      row("face_twice", "the triangles of the last control face are there twice", "coverage",
-          [](A, D out) {
-            some_triangle(out);
-            const std::int32_t face = out.triangle_face.back();
-            for (std::size_t t = 0, count = out.triangles.size(); t < count; ++t)
-              if (out.triangle_face[t] == face) out.add_triangle(out.triangles[t], face);
-          }),
-      row("wrong_triangle_face", "one triangle names another control face", "coverage",
-          [](A a, D out) {
-            auto& face = out.triangle_face[some_triangle(out)];
-            face = (face + 1) % static_cast<std::int32_t>(a.mesh.faces.size());
-          }),
-      row("index_out_of_range", "one triangle names a vertex that does not exist", "written",
-          [](A, D out) {
-            out.triangles[some_triangle(out)][2] = static_cast<std::uint32_t>(out.positions.size());
-          }),
-      row("t_vertex", "a point inside a control edge is left out on one side of it", "t-vertices",
-          [](A, D out) { leave_out(out, on_an_edge(out)); }),
-      row("one_ulp_crack", "a point inside a control edge is one ulp off on one side of it",
-          "shared-positions", [](A, D out) { out.move_up(split_off(out)); }),
-      row("one_ulp_normal", "a normal inside a control edge is one ulp off on one side of it",
-          "shared-normals",
-          [](A, D out) {
-            some_normal(out);
-            double& x = out.normals[split_off(out)][0];
-            x = out.one_ulp_up(x);
-          }),
+      deliver("flipped_orientation", "all triangles are clockwise", "orientation",
+              [](A, D out) {
+                for (auto& t : out.triangles) std::swap(t[1], t[2]);
+              }),
+      deliver("one_flipped_triangle", "one triangle is clockwise", "orientation",
+              [](A, D out) {
+                auto& t = out.triangles[some_triangle(out)];
+                std::swap(t[1], t[2]);
+              }),
+      deliver("missing_triangle", "one triangle is missing", "coverage",
+              [](A, D out) { out.erase_triangle(some_triangle(out)); }),
+      deliver("duplicated_triangle", "one triangle is there twice", "coverage",
+              [](A, D out) {
+                const std::size_t t = some_triangle(out);
+                out.add_triangle(out.triangles[t], out.triangle_face[t]);
+              }),
+      deliver("face_twice", "the triangles of the last control face are there twice", "coverage",
+              [](A, D out) {
+                some_triangle(out);
+                const std::int32_t face = out.triangle_face.back();
+                for (std::size_t t = 0, count = out.triangles.size(); t < count; ++t)
+                  if (out.triangle_face[t] == face) out.add_triangle(out.triangles[t], face);
+              }),
+      deliver("wrong_triangle_face", "one triangle names another control face", "coverage",
+              [](A a, D out) {
+                auto& face = out.triangle_face[some_triangle(out)];
+                face = (face + 1) % static_cast<std::int32_t>(a.mesh.faces.size());
+              }),
+      deliver("index_out_of_range", "one triangle names a vertex that does not exist", "written",
+              [](A, D out) {
+                out.triangles[some_triangle(out)][2] = static_cast<std::uint32_t>(out.positions.size());
+              }),
+      deliver("t_vertex", "a point inside a control edge is left out on one side of it", "t-vertices",
+              [](A, D out) { leave_out(out, on_an_edge(out)); }),
+      deliver("one_ulp_crack", "a point inside a control edge is one ulp off on one side of it",
+              "shared-positions", [](A, D out) { out.move_up(split_off(out)); }),
+      deliver("one_ulp_normal", "a normal inside a control edge is one ulp off on one side of it",
+              "shared-normals",
+              [](A, D out) {
+                some_normal(out);
+                double& x = out.normals[split_off(out)][0];
+                x = out.one_ulp_up(x);
+              }),
 
       // Memory.
-      row("negative_count", "vertex_count is -1", "written", [](A, D out) { out.announced_vertices = -1; }),
-      row("count_too_large", "vertex_count is one more than there is memory for", "written",
-          [](A, D out) { out.announced_vertices = static_cast<std::int64_t>(out.positions.size()) + 1; }),
+      deliver("negative_count", "vertex_count is -1", "written",
+              [](A, D out) { out.announced_vertices = -1; }),
+      deliver("count_too_large", "vertex_count is one more than there is memory for", "written",
+              [](A, D out) { out.announced_vertices = static_cast<std::int64_t>(out.positions.size()) + 1; }),
       memory("foreign_memory", "the normals are not in the host's memory", &Delivered::foreign_normals),
       memory("write_behind", "one coordinate is written behind the end of the positions",
              &Delivered::overrun),
@@ -249,55 +243,55 @@ std::vector<Change> of_all_meshes() {
 // Tables too short, assumptions about the shape, neighbourhoods that a search over many meshes has to find.
 std::vector<Change> of_some_meshes() {
   return {
-      row("edges_of_genus_0",
-          "a table of 3 V - 6 edges, as a closed mesh of genus 0 has: others are not smoothed", "positions",
-          [](A a, D out) { forget_edges(a, 3 * a.mesh.positions.size() - 6, out); }),
-      row("edges_of_genus_1",
-          "a table of 3 V edges, as a closed mesh of genus 1 has: others are not smoothed", "positions",
-          [](A a, D out) { forget_edges(a, 3 * a.mesh.positions.size(), out); }),
-      row("second_component", "faces that are not reached from the first one keep their normals unturned",
-          "normals",
-          [](A a, D out) {
-            for (std::size_t v = 0; v < out.normals.size(); ++v)
-              if (component_of(a, out, v) > 0)
-                for (double& x : out.normals[v]) x = -x;
-          }),
-      row("third_component", "from the third component on, points are 1e-5 too far from the origin",
-          "positions",
-          [](A a, D out) {
-            for (std::size_t v = 0; v < out.positions.size(); ++v)
-              if (component_of(a, out, v) > 1)
-                for (double& x : out.positions[v]) x *= 1.00001;
-          }),
-      row("welded_components", "control vertices at one place, of whatever component, get one limit point",
-          "positions",
-          [](A a, D out) {
-            std::map<Vector, std::pair<int, std::size_t>> known;
-            at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-              const auto [first, is_new] = known.try_emplace(a.mesh.positions[at], a.component[at], v);
-              if (!is_new && first->second.first != a.component[at])
-                out.positions[v] = Vector(out.positions[first->second.second]);
-            });
-          }),
-      row("flat_box", "brought to the unit cube axis by axis and back: 0 / 0 where the box is flat", "finite",
-          [](A a, D out) {
-            for (std::size_t c = 0; c < 3; ++c) {
-              const auto less = [&](const auto& p, const auto& q) { return p[c] < q[c]; };
-              const auto [low, high] =
-                  std::minmax_element(a.mesh.positions.begin(), a.mesh.positions.end(), less);
-              if ((*low)[c] == (*high)[c])
-                for (Vector& p : out.positions) p[c] = kNan;
-            }
-          }),
-      row("edge_without_length", "divides by the lengths of edges: 0 / 0 at both ends", "finite",
-          [](A a, D out) {
-            std::vector<bool> spoilt(a.mesh.positions.size(), false);
-            for (const reference::Edge& e : a.topology.edges())
-              if (a.mesh.positions[e.a] == a.mesh.positions[e.b]) spoilt[e.a] = spoilt[e.b] = true;
-            at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-              if (spoilt[at]) out.positions[v].fill(kNan);
-            });
-          }),
+      deliver("edges_of_genus_0",
+              "a table of 3 V - 6 edges, as a closed mesh of genus 0 has: others are not smoothed",
+              "positions", [](A a, D out) { forget_edges(a, 3 * a.mesh.positions.size() - 6, out); }),
+      deliver("edges_of_genus_1",
+              "a table of 3 V edges, as a closed mesh of genus 1 has: others are not smoothed", "positions",
+              [](A a, D out) { forget_edges(a, 3 * a.mesh.positions.size(), out); }),
+      deliver("second_component", "faces that are not reached from the first one keep their normals unturned",
+              "normals",
+              [](A a, D out) {
+                for (std::size_t v = 0; v < out.normals.size(); ++v)
+                  if (component_of(a, out, v) > 0) each(out.normals[v], std::negate<>());
+              }),
+      deliver("third_component", "from the third component on, points are 1e-5 too far from the origin",
+              "positions",
+              [](A a, D out) {
+                for (std::size_t v = 0; v < out.positions.size(); ++v)
+                  if (component_of(a, out, v) > 1)
+                    each(out.positions[v], [](double x) { return x * 1.00001; });
+              }),
+      deliver("welded_components",
+              "control vertices at one place, of whatever component, get one limit point", "positions",
+              [](A a, D out) {
+                std::map<Vector, std::pair<int, std::size_t>> known;
+                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
+                  const auto [first, is_new] = known.try_emplace(a.mesh.positions[at], a.component[at], v);
+                  if (!is_new && first->second.first != a.component[at])
+                    out.positions[v] = Vector(out.positions[first->second.second]);
+                });
+              }),
+      deliver("flat_box", "brought to the unit cube axis by axis and back: 0 / 0 where the box is flat",
+              "finite",
+              [](A a, D out) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                  const auto less = [&](const auto& p, const auto& q) { return p[c] < q[c]; };
+                  const auto [low, high] =
+                      std::minmax_element(a.mesh.positions.begin(), a.mesh.positions.end(), less);
+                  if ((*low)[c] == (*high)[c])
+                    for (Vector& p : out.positions) p[c] = kNan;
+                }
+              }),
+      deliver("edge_without_length", "divides by the lengths of edges: 0 / 0 at both ends", "finite",
+              [](A a, D out) {
+                std::vector<bool> spoilt(a.mesh.positions.size(), false);
+                for (const reference::Edge& e : a.topology.edges())
+                  if (a.mesh.positions[e.a] == a.mesh.positions[e.b]) spoilt[e.a] = spoilt[e.b] = true;
+                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
+                  if (spoilt[at]) out.positions[v].fill(kNan);
+                });
+              }),
       {.name = "indices_of_16_bits",
        .description = "control points are fetched by the lower 16 bits of their number",
        .check = "positions",
@@ -307,7 +301,8 @@ std::vector<Change> of_some_meshes() {
              for (std::size_t v = 0x10000; v < mesh.positions.size(); ++v)
                mesh.positions[v] = mesh.positions[v & 0xFFFF];
            }},
-      row("adjacent_extraordinary",
+      deliver(
+          "adjacent_extraordinary",
           "in faces with two extraordinary vertices side by side, points are 1e-5 of the mesh off along x",
           "positions",
           [](A a, D out) {
@@ -317,26 +312,28 @@ std::vector<Change> of_some_meshes() {
               if (std::count_if(corners.begin(), corners.end(), some) > 1) move(a, out, v);
             });
           }),
-      row("depth_difference_3",
-          "in faces beside one whose depth differs by 3, points are 1e-5 of the mesh off along x",
-          "positions",
-          [](A a, D out) {
-            std::vector<bool> spoilt(a.mesh.faces.size(), false);
-            for (std::size_t f = 0; f < spoilt.size(); ++f)
-              for (std::size_t k = 0; k < 3 && a.depth[f] >= 0; ++k)
-                if (const int other = a.depth_beyond(f, k); other >= 0 && std::abs(a.depth[f] - other) == 3)
-                  spoilt[f] = true;
-            elsewhere(a, out, [&](std::size_t v) {
-              if (spoilt[a.face_of(out.place(v))]) move(a, out, v);
-            });
-          }),
-      row("valence_above_40",
-          "limit points of vertices amid more than 40 faces are 1e-5 of the mesh off along x", "positions",
-          [](A a, D out) {
-            at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-              if (a.inside(at) && a.faces(at) > 40) move(a, out, v);
-            });
-          }),
+      deliver("depth_difference_3",
+              "in faces beside one whose depth differs by 3, points are 1e-5 of the mesh off along x",
+              "positions",
+              [](A a, D out) {
+                std::vector<bool> spoilt(a.mesh.faces.size(), false);
+                for (std::size_t f = 0; f < spoilt.size(); ++f)
+                  for (std::size_t k = 0; k < 3 && a.depth[f] >= 0; ++k)
+                    if (const int other = a.depth_beyond(f, k);
+                        other >= 0 && std::abs(a.depth[f] - other) == 3)
+                      spoilt[f] = true;
+                elsewhere(a, out, [&](std::size_t v) {
+                  if (spoilt[a.face_of(out.place(v))]) move(a, out, v);
+                });
+              }),
+      deliver("valence_above_40",
+              "limit points of vertices amid more than 40 faces are 1e-5 of the mesh off along x",
+              "positions",
+              [](A a, D out) {
+                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
+                  if (a.inside(at) && a.faces(at) > 40) move(a, out, v);
+                });
+              }),
   };
 }
 

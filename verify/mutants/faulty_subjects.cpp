@@ -281,11 +281,6 @@ class ChangedSubject {
   std::vector<unsigned char> elsewhere_;
 };
 
-std::string options_of(const char* key, std::string_view name, std::string_view subject,
-                       std::string_view options) {
-  return fmt::format("{}={},of={}{}{}", key, name, subject, options.empty() ? "" : ",", options);
-}
-
 std::vector<Change> together(std::initializer_list<std::vector<Change>> lists) {
   std::vector<Change> all;
   for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
@@ -306,11 +301,7 @@ const std::vector<FaultTable>& fault_tables() {
 }
 
 std::string faulty_options(std::string_view fault, std::string_view subject, std::string_view options) {
-  return options_of(Faults::kKey, fault, subject, options);
-}
-
-std::string unusual_options(std::string_view habit, std::string_view subject, std::string_view options) {
-  return options_of(Habits::kKey, habit, subject, options);
+  return fmt::format("{}={},of={}{}{}", Faults::kKey, fault, subject, options.empty() ? "" : ",", options);
 }
 
 }  // namespace limitcheck::verify

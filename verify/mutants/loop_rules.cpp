@@ -14,9 +14,7 @@
 namespace limitcheck::verify {
 namespace {
 
-using reference::Edge;
-using reference::Topology;
-using reference::Weights;
+using reference::Edge, reference::Topology, reference::Weights;
 using V = MutantRules::V;
 
 double turn(double fraction) {

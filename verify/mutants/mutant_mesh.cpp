@@ -13,8 +13,7 @@
 namespace limitcheck::verify {
 namespace {
 
-using reference::Sector;
-using reference::Topology;
+using reference::Sector, reference::Topology;
 using V = MutantRules::V;
 
 data::Faces refined_faces(const Topology& topology, bool quads) {

@@ -10,7 +10,6 @@
 #include "data/control_mesh.h"
 #include "reference/mesh/topology.h"
 #include "verify/mutants/mutant_rules.h"
-#include "verify/mutants/mutant_tags.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/mutants/mutant_tags.h"
+#include "verify/mutants/mutant_rules.h"
 
 #include <algorithm>
 #include <map>
@@ -7,9 +7,7 @@
 
 namespace limitcheck::verify {
 
-using reference::Edge;
-using reference::Sector;
-using reference::Topology;
+using reference::Edge, reference::Sector, reference::Topology;
 using V = MutantTags::V;
 
 namespace {

@@ -25,6 +25,11 @@
 namespace limitcheck::verify {
 namespace {
 
+// The options that give `subject`, run under `options`, the habit.
+std::string unusual_options(std::string_view habit, std::string_view subject, std::string_view options = {}) {
+  return fmt::format("habit={},of={}{}{}", habit, subject, options.empty() ? "" : ",", options);
+}
+
 // Of a journal or a part in which results have changed places.
 TEST(Mutants, AResultIsThatOfTheMutantItNames) {
   std::map<std::size_t, nlohmann::json> results;

@@ -256,6 +256,19 @@ class EngineSubject {
   fast::PatchMesh<float> patches_{fast::PatchOptions{.incremental = true}};
 };
 
+// Delivers nothing and says so: zero vertices, zero triangles. Every check of an audit must fail on it, none may crash,
+// and none may report an empty delivery as correct.
+class NullSubject {
+ public:
+  static lc_capabilities capabilities(Options&) {
+    return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
+  }
+  NullSubject(const lc_mesh&, Options&) {}
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    allocate_output<double>(request, out, 0, 0, true);
+  }
+};
+
 }  // namespace
 
 const lc_subject* lc_subject_sliding_window() {
@@ -273,5 +286,11 @@ const lc_subject* lc_subject_row_stream() {
       "limitcheck's row streaming: one grid per vector lane, shared points bit-identical; both schemes",
       "output=strips|indexed|patches, frames=N (patches, after a walk of N frames), repair=stitch|fan|none, "
       "target=avx512|avx2|avx2/4|sse4|scalar|...");
+  return &subject;
+}
+
+const lc_subject* lc_subject_null() {
+  static const lc_subject subject =
+      make_subject<NullSubject>("null", "delivers nothing: what every check must fail on");
   return &subject;
 }

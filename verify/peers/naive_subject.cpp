@@ -23,7 +23,7 @@
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/mesh/sharpness.h"
-#include "verify/peers/faces_in_parallel.h"
+#include "verify/peers/evaluated_faces.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
 #include "verify/subject/face_domain.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/peers/opensubdiv_faces.h"
+#include "verify/peers/opensubdiv_mesh.h"
 #include "verify/subject/registry.h"
 
 namespace {

@@ -13,10 +13,7 @@
 namespace limitcheck::verify {
 namespace {
 
-using reference::Sector;
-using reference::Topology;
-using reference::Triangle;
-using reference::VertexState;
+using reference::Sector, reference::Topology, reference::Triangle, reference::VertexState;
 using Point = reference::Vec3<double>;
 using Points = std::span<const Point>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/proof_report.h"
+#include "verify/proof/proof_set.h"
 
 #include <fmt/format.h>
 

@@ -19,7 +19,6 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "data/test_support/assertions.h"
-#include "verify/proof/proof_report.h"
 #include "verify/proof/proof_set.h"
 
 namespace limitcheck::verify {

@@ -19,7 +19,7 @@ flags=(-std=c++20 -I "$copy" -ffp-contract=off -MD)
 
 # What a finder is made of: a program or a test, and the sources that faults are planted in or that include them.
 declare -A sources=(
-  [map]="verify/proof/source_fault_probe.cpp verify/proof/maps/prove_map_residues.cpp"
+  [map]="verify/proof/test_source_fault.cpp verify/proof/maps/prove_map_residues.cpp"
   [quads]="verify/proof/maps/quad_map_test.cpp fast/mesh/adjacency.cpp fast/mesh/cut_mesh.cpp
     fast/mesh/sharpness.cpp fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp"
   [shipped]="verify/proof/bounds/shipped_kernels_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp

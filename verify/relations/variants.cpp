@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace limitcheck::verify {
@@ -89,6 +90,134 @@ Variant translation(const Evidence& e, int exponent) {
     v.position = [by](const Vector& p) { return p - by; };
     v.normals = false;
   });
+}
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+bool lasts(float sharpness) {
+  return sharpness >= data::kInfiniteSharpness;
+}
+
+bool ends(float sharpness) {
+  return sharpness > 0 && !lasts(sharpness);
+}
+
+std::vector<Lattice::Edge> boundary_of(const Lattice& lattice) {
+  std::vector<Lattice::Edge> edges = lattice.edges();
+  std::erase_if(edges, [](const Lattice::Edge& e) { return !e.on_boundary(); });
+  return edges;
+}
+
+// How many edges that stay sharp end at each vertex, those of the boundary included.
+std::vector<int> lasting_edges_at(const data::ControlMesh& mesh, const Lattice& lattice) {
+  std::set<Edge> edges;
+  for (const data::SharpEdge& e : mesh.sharpness.edges)
+    if (lasts(e.sharpness)) edges.insert(std::minmax(e.a, e.b));
+  for (const Lattice::Edge& e : boundary_of(lattice)) edges.insert({e.a, e.b});
+  std::vector<int> count(mesh.positions.size(), 0);
+  for (const auto& [a, b] : edges) ++count[a], ++count[b];
+  return count;
+}
+
+Variant crease_order(const Evidence& e) {
+  return variant(e, "with its sharp edges and vertices in another order", true, [](Variant& v) {
+    data::Sharpness& sharp = v.mesh.sharpness;
+    std::reverse(sharp.edges.begin(), sharp.edges.end());
+    std::reverse(sharp.vertices.begin(), sharp.vertices.end());
+    for (data::SharpEdge& edge : sharp.edges) std::swap(edge.a, edge.b);
+  });
+}
+
+// Whether some edge or vertex, or an edge, is of such a sharpness.
+template <class Tags>
+bool any_is(const Tags& tags, bool (*of)(float)) {
+  return std::any_of(tags.begin(), tags.end(), [&](const auto& tag) { return of(tag.sharpness); });
+}
+bool any_is(const data::ControlMesh& mesh, bool (*of)(float)) {
+  return any_is(mesh.sharpness.edges, of) || any_is(mesh.sharpness.vertices, of);
+}
+
+bool has_infinite(const data::ControlMesh& mesh, const Lattice&) {
+  return any_is(mesh, lasts);
+}
+Variant infinite_sharpness(const Evidence& e, float sharpness) {
+  const char* name = sharpness == data::kInfiniteSharpness ? "with the sharpness 10 where it is more"
+                                                           : "with the sharpness 100 where it is 10 and more";
+  return variant(e, name, true, [&](Variant& v) {
+    const auto replace = [&](auto& tags) {
+      for (auto& tag : tags)
+        if (lasts(tag.sharpness)) tag.sharpness = sharpness;
+    };
+    replace(v.mesh.sharpness.edges);
+    replace(v.mesh.sharpness.vertices);
+  });
+}
+
+bool has_lasting_crease_and_boundary(const data::ControlMesh& mesh, const Lattice& lattice) {
+  return !boundary_of(lattice).empty() && any_is(mesh.sharpness.edges, lasts);
+}
+Variant boundary_crease(const Evidence& e) {
+  return variant(e, "with the edges of its boundary sharp for ever, which they are", true, [&](Variant& v) {
+    std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
+    const auto boundary = boundary_of(e.lattice);
+    std::erase_if(sharp, [&](const data::SharpEdge& tag) {
+      const Edge edge = std::minmax(tag.a, tag.b);
+      return std::any_of(boundary.begin(), boundary.end(),
+                         [&](const Lattice::Edge& b) { return Edge(b.a, b.b) == edge; });
+    });
+    for (const Lattice::Edge& edge : boundary) sharp.push_back({edge.a, edge.b, data::kInfiniteSharpness});
+  });
+}
+
+// A cut is the same surface if sharpness lasts wherever there is some, and no sharp edge ends in a dart.
+bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
+  if (has_semi_sharp(mesh)) return false;
+  const std::vector<int> count = lasting_edges_at(mesh, lattice);
+  return any_is(mesh.sharpness.edges, lasts) &&
+         std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
+}
+Variant cut_by_hand(const Evidence& e) {
+  Variant v = identity(e);
+  v.name = "cut along its sharp edges, with a copy of their points for each side";
+  const Sides& sides = e.reference.sides();
+  data::ControlMesh& mesh = v.mesh;
+  // Copies in the order of the sides of control vertices; each side of one is a vertex.
+  std::vector<Sides::Id> copied;
+  const auto vertex_count = static_cast<Lattice::Id>(mesh.positions.size());
+  for (Lattice::Id w = 0; w < vertex_count; ++w)
+    sides.for_each(w, [&](Sides::Id side) {
+      if (side != w) copied.push_back(side);
+    });
+  const auto number = [&](Sides::Id side) {
+    if (side < vertex_count) return static_cast<std::int32_t>(side);
+    const auto at = std::lower_bound(copied.begin(), copied.end(), side);
+    return static_cast<std::int32_t>(vertex_count + (at - copied.begin()));
+  };
+  for (const Sides::Id side : copied) mesh.positions.push_back(e.mesh.positions[sides.point(side)]);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::int32_t& w : mesh.faces[f]) w = number(sides.of(w, static_cast<std::int32_t>(f)));
+
+  // Vertices that are held: three lasting edges and more, a sharpness of their own, and, if the mesh says so,
+  // boundary vertices of one face; not the vertices of one face that the cut makes.
+  std::vector<bool> held(e.mesh.positions.size(), false);
+  const std::vector<int> count = lasting_edges_at(e.mesh, e.lattice);
+  std::vector<int> faces(held.size(), 0);
+  for (const std::int32_t w : e.mesh.faces.corners()) ++faces[w];
+  const bool corners = e.mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
+  for (std::size_t w = 0; w < held.size(); ++w) held[w] = count[w] > 2 || (corners && faces[w] == 1);
+  for (const data::SharpVertex& tag : e.mesh.sharpness.vertices) held[tag.vertex] = true;
+  data::Sharpness& sharp = mesh.sharpness;
+  sharp.edges.clear();
+  sharp.vertices.clear();
+  sharp.boundary = data::Boundary::kEdge;
+  for (std::int32_t w = 0; w < static_cast<std::int32_t>(mesh.positions.size()); ++w)
+    if (held[w < vertex_count ? w : sides.point(copied[w - vertex_count])])
+      sharp.vertices.push_back({w, data::kInfiniteSharpness});
+  return v;
+}
+
+bool any(const data::ControlMesh& mesh, const Lattice&) {
+  return mesh.sharpness.edges.size() + mesh.sharpness.vertices.size() > 0;
 }
 
 }  // namespace
@@ -181,6 +310,45 @@ const std::vector<Relation>& variant_relations() {
        }},
   };
   return all;
+}
+
+const std::vector<Relation>& sharp_relations() {
+  using Variants = std::vector<Variant>;
+  static const std::vector<Relation> all{
+      {"crease-order", [](const Evidence& e) { return Variants{crease_order(e)}; }, &any},
+      {"infinite-sharpness",
+       [](const Evidence& e) {
+         return Variants{infinite_sharpness(e, data::kInfiniteSharpness), infinite_sharpness(e, 100)};
+       },
+       &has_infinite},
+      {"boundary-crease", [](const Evidence& e) { return Variants{boundary_crease(e)}; },
+       &has_lasting_crease_and_boundary},
+      {"cut-by-hand", [](const Evidence& e) { return Variants{cut_by_hand(e)}; }, &can_be_cut},
+  };
+  return all;
+}
+
+std::optional<float> common_sharpness(const data::ControlMesh& mesh) {
+  std::set<float> all;
+  for (const data::SharpEdge& e : mesh.sharpness.edges) all.insert(e.sharpness);
+  for (const data::SharpVertex& v : mesh.sharpness.vertices) all.insert(v.sharpness);
+  std::erase_if(all, [](float s) { return !ends(s); });
+  return all.size() == 1 ? std::optional(*all.begin()) : std::nullopt;
+}
+
+bool has_semi_sharp(const data::ControlMesh& mesh) {
+  return any_is(mesh, ends);
+}
+
+data::ControlMesh with_sharpness(data::ControlMesh mesh, float sharpness) {
+  const auto change = [sharpness](auto& tags) {
+    for (auto& tag : tags)
+      if (ends(tag.sharpness)) tag.sharpness = sharpness;
+    std::erase_if(tags, [](const auto& tag) { return tag.sharpness == 0; });
+  };
+  change(mesh.sharpness.edges);
+  change(mesh.sharpness.vertices);
+  return mesh;
 }
 
 }  // namespace limitcheck::verify

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <tuple>
 #include <type_traits>
 
 #include "data/error.h"
@@ -94,20 +95,10 @@ std::string_view word(lc_precision precision) {
 std::string_view word(reference::Weights weights) {
   return weights == reference::Weights::kWarren ? "warren" : "loop";
 }
-template <class E>
-constexpr E kLast{};
-template <>
-constexpr Status kLast<Status> = Status::kError;
-template <>
-constexpr Origin kLast<Origin> = Origin::kHost;
-template <>
-constexpr PlaceKind kLast<PlaceKind> = PlaceKind::kCorner;
-template <>
-constexpr data::Scheme kLast<data::Scheme> = data::Scheme::kCatmullClark;
-template <>
-constexpr lc_precision kLast<lc_precision> = LC_FLOAT64;
-template <>
-constexpr reference::Weights kLast<reference::Weights> = reference::Weights::kWarren;
+// The last enumerator of each type.
+constexpr std::tuple kLast{Status::kError,     Origin::kHost,
+                           PlaceKind::kCorner, data::Scheme::kCatmullClark,
+                           LC_FLOAT64,         reference::Weights::kWarren};
 
 double number_of(const Json& json) {
   return json.is_string() ? std::strtod(json.get_ref<const std::string&>().c_str(), nullptr)
@@ -117,7 +108,7 @@ double number_of(const Json& json) {
 // The number of an enumerator, or its word.
 template <class E>
 E enumerator(const Json& json) {
-  for (int k = 0; k <= static_cast<int>(kLast<E>); ++k)
+  for (int k = 0; k <= static_cast<int>(std::get<E>(kLast)); ++k)
     if (json.is_string() ? json.get_ref<const std::string&>() == word(static_cast<E>(k)) : json == k)
       return static_cast<E>(k);
   throw data::ArgumentError("no such kind: " + json.dump());

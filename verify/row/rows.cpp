@@ -37,8 +37,7 @@ const std::vector<RowKind>& row_kinds() {
       {"positions", "positions", kSurface,
        "Distance of each vertex from the exact limit point that its provenance names.",
        "sqrt(3) 8 (depth + 2) u M, in bounding-box diagonals; at least 1e-14 in double. At a vertex whose "
-       "mask "
-       "adds n > 33 points, n + 1 in place of 8.",
+       "mask adds n > 33 points, n + 1 in place of 8.",
        "each of depth + 2 steps is a convex combination that adds a few roundings (verify/row/bounds.h); "
        "truth: Stam's evaluator in double, itself held against 50 digits"},
       {"refined-positions", "positions", kSurface,
@@ -52,8 +51,8 @@ const std::vector<RowKind>& row_kinds() {
        "Angle between each normal and the exact one, where the surface has one. A finding is confirmed in "
        "certified arithmetic.",
        "1e-3 rad in float, 1e-9 rad in double; doubling with each level beyond 5. More where the tangents "
-       "t1, t2 are so short or so nearly parallel that rounding alone turns the normal farther, by "
-       "asin(5 u M (|t1| + |t2|) / |t1 x t2|): the row says at how many points.",
+       "t1, t2 are so short or so nearly parallel that rounding alone turns the normal farther, by asin(5 u "
+       "M (|t1| + |t2|) / |t1 x t2|): the row says at how many points.",
        "differences of points 2^-depth apart lose a bit with each level; measured on float engines "
        "(verify/row/bounds.h)"},
       {"normal-length", "normals", kOther, "Distance of the normals' length from 1.", "8 unit roundoffs.",
@@ -113,8 +112,8 @@ const std::vector<RowKind>& row_kinds() {
        kTwice, kRelation},
       {"fractional-sharpness", "order", kOrder,
        "One sharpness for all semi-sharp edges and vertices: with 2.3, 0.7 of the surface with 2 and 0.3 of "
-       "that with 3; likewise with 1/1024 and the numbers next below and above 1 and 2. From 9 to the "
-       "number next below 10, and from that to 10, no more than four times what there is between 8 and 9.",
+       "that with 3; likewise with 1/1024 and the numbers next below and above 1 and 2. From 9 to the number "
+       "next below 10, and from that to 10, no more than four times what there is between 8 and 9.",
        kTwice, kRelation},
       {"state", "order", kOrder,
        "Asked eight times, between other meshes and other depths, made again, beside another mesh of as many "
@@ -126,23 +125,20 @@ const std::vector<RowKind>& row_kinds() {
       {"rejected-inputs", "bad input", kAccepts,
        "An edge with three faces, faces of opposite orientation, fans that meet in a vertex, faces without "
        "vertices, a vertex that does not exist, a coordinate that is no number, and, of a subject that "
-       "declares "
-       "sharp edges and vertices, tags of none and sharpness that is no number or below 0: refused with a "
-       "message. A subject that says that it does not validate is not asked.",
+       "declares sharp edges and vertices, tags of none and sharpness that is no number or below 0: refused "
+       "with a message. A subject that says that it does not validate is not asked.",
        "None accepted.", "the scheme is defined on oriented manifolds only"},
 
       // Of the subject `oracle`, in place of all others.
       {"oracle-faces", "", kOrder,
        "A point of a vertex or edge, asked from each of its faces: the certified balls of its position meet, "
-       "and "
-       "on one side of edges that stay sharp those of normal and Gaussian curvature.",
+       "and on one side of edges that stay sharp those of normal and Gaussian curvature.",
        "They meet: `worst` is the distance of the centres over the sum of the radii.", kOracle},
       {"oracle-double", "", kOrder, "Position and derivatives in double against the certificate.",
        "What rounding may do: (steps + 2) (2 n + 8) u M, n faces at a vertex or corners of a face.", kOracle},
       {"oracle-parts", "", kOrder,
        "A certificate against that of the few faces which it depends on, and against the whole mesh, uncut, "
-       "in "
-       "50 decimals.",
+       "in 50 decimals.",
        "They meet.", kOracle},
 
       // Of finished tessellations (--tessellation).
@@ -159,8 +155,7 @@ const std::vector<RowKind>& row_kinds() {
        "--tolerance, in diagonals of the control mesh.", "verify/files; truth: Stam's evaluator in double"},
       {"file-recognised", "", kOther,
        "Only where most vertices are something else than points of the limit surface, as those of the "
-       "refined "
-       "control mesh: which are not that.",
+       "refined control mesh: which are not that.",
        "As of positions, in float or double as the coordinates say, and half of their last digit.",
        "the nearest of the points that the reference makes by the rule that was recognised"},
       {"file-normals", "", kSurface,

@@ -272,10 +272,10 @@ Diagnosis diagnose(const FileEvidence& e) {
                           best->steps, best->limit, best->tags};
     const Result row = recognised_row(e, sampled, *best, what, how);
     return {
-        {fmt::format("looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}'s limit "
-                     "surface{}",
-                     what.what, row.of - row.bad, row.of, sampled.worst / size, owner(own),
-                     remark(best->scheme, best->tags, own))},
+        {fmt::format(
+            "looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}'s limit surface{}",
+            what.what, row.of - row.bad, row.of, sampled.worst / size, owner(own),
+            remark(best->scheme, best->tags, own))},
         what,
         {row}};
   }
@@ -288,8 +288,8 @@ Diagnosis diagnose(const FileEvidence& e) {
                     t.quads, t.polygons));
   if (refined.worst > 0 && sampled.worst > 3 * refined.worst)
     told.push_back(fmt::format(
-        "not {} subdivision of this control mesh: the control mesh refined {} times by {}'s rule, not "
-        "even moved to the limit, is within {:.2g} diagonals of the surface, these vertices are off by up to "
+        "not {} subdivision of this control mesh: the control mesh refined {} times by {}'s rule, not even "
+        "moved to the limit, is within {:.2g} diagonals of the surface, these vertices are off by up to "
         "{:.2g}. If a scale, an offset or a rotation is in between, --fit takes it out",
         own == GuessedRule::kLoop ? "Loop" : "Catmull-Clark", refined.steps, owner(own), refined.worst / size,
         sampled.worst / size));
@@ -313,11 +313,10 @@ std::string blind_spots(const FileEvidence& e) {
   const auto limits = scheme_points(e.control, scheme, beside_corners ? 1 : 0, true);
   double farthest = 0;
   for (std::size_t v = 0; v < limits.size(); ++v) farthest = std::max(farthest, norm(limits[v] - refined[v]));
-  std::string text =
-      beside_corners ? "no vertex lies inside a control face, only at its corners and on its edges: the "
-                       "surface inside of faces was not looked at"
-                     : "all vertices are limits of control vertices: the surface along the edges and inside "
-                       "of faces was not looked at";
+  std::string text = beside_corners ? "no vertex lies inside a control face, only at its corners and on its "
+                                      "edges: the surface inside of faces was not looked at"
+                                    : "all vertices are limits of control vertices: the surface along the "
+                                      "edges and inside of faces was not looked at";
   if (farthest > 0)
     text +=
         fmt::format("; limit weights that are off by less than {:.1g} of themselves are within the tolerance",

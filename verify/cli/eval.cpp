@@ -253,8 +253,6 @@ std::pair<std::uint32_t, std::uint32_t> fraction(const Parameter& parameter) {
   const std::string text = parameter.to_string();
   std::pair<std::uint32_t, std::uint32_t> result{0, 1};
   if (read_numbers(text, '/', result.first, result.second) == 0)
-    read = std::from_chars(read.ptr + 1, last, result.second);
-  if (read.ec != std::errc() || read.ptr != last)
     throw data::ArgumentError(fmt::format("--subject: {} is no lattice point", text));
   return result;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/mutants/mutant_mesh.h"
+#include "verify/mutants/mutant_rules.h"
 
 #include <algorithm>
 #include <array>

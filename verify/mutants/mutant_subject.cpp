@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "reference/loop/stam.h"
-#include "verify/mutants/mutant_mesh.h"
 #include "verify/mutants/mutant_rules.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"

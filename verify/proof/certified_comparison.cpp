@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/certified_comparison.h"
+#include "verify/proof/proof_set.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Float errors as facts about the true surface.
-#include "verify/proof/certified_comparison.h"
+#include "verify/proof/proof_set.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "commit.h"
+#include <commit.h>  // made by the build (commit.cmake)
 #include "data/error.h"
 #include "verify/cli/commands.h"
 #include "verify/host/in_turns.h"

@@ -120,8 +120,7 @@ inline void step(std::vector<std::int32_t>& depth, data::SplitMix64& random) {
 }
 
 inline TessellatorOptions options_of(const Model& model, Repair repair) {
-  TessellatorOptions options;
-  options.scheme = model.scheme;
+  TessellatorOptions options{.scheme = model.scheme};
   options.cracks.repair = repair;
   return options;
 }

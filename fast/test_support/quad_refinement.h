@@ -73,8 +73,7 @@ struct RefinedPolygons {
 
   /// New vertices: old ones, edges in the order of the map, faces; faces (V, E, F, E') corner by corner.
   RefinedPolygons step() const {
-    RefinedPolygons out;
-    out.chaikin = chaikin;
+    RefinedPolygons out{.chaikin = chaikin};
     const auto at = faces_of_edges();
     std::map<Edge, int> number;
     int next = static_cast<int>(points.size());

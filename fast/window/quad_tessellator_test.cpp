@@ -11,7 +11,6 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/splitmix64.h"
-#include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/quad_refinement.h"
 #include "fast/test_support/test_meshes.h"
@@ -21,8 +20,7 @@ namespace limitcheck::fast {
 namespace {
 
 TessellatorOptions quads(Repair repair) {
-  TessellatorOptions options;
-  options.scheme = data::Scheme::kCatmullClark;
+  TessellatorOptions options{.scheme = data::Scheme::kCatmullClark};
   options.cracks.repair = repair;
   options.provenance = true;
   return options;
@@ -118,8 +116,7 @@ TEST(QuadFrame, EveryPointLiesWhereItsProvenanceSays) {
   int judged = 0, which = 0;
   std::vector<Shape> all = shapes();
   for (std::uint64_t seed = 1; seed < 5; ++seed) {
-    data::RandomMeshOptions size;
-    size.faces = 30;
+    data::RandomMeshOptions size{.faces = 30};
     all.push_back({data::with_random_sharpness(data::mixed_mesh(seed, size), seed), 0, true});
   }
   for (const Shape& shape : all) {
@@ -163,8 +160,7 @@ TEST(QuadFrame, DepthsFollowTheView) {
   for (const auto& mesh : {data::pawn(12), data::mixed_pawn(12)}) {
     Tessellator<float> tessellator(mesh, quads(Repair::kFan));
     DepthOptions options;
-    Camera camera;
-    camera.eye = {9, 2, 3};
+    Camera camera{.eye = {9, 2, 3}};
     IndexedMesh<float> out;
     std::int64_t coarse = 0;
     for (const double angle : {60., 20., 5.}) {
@@ -185,9 +181,7 @@ TEST(QuadFrame, DepthsFollowTheView) {
   auto flat = data::quad_wheel(5, 1);
   for (auto& p : flat.positions) p[2] = 0;
   Tessellator<float> tessellator(flat, quads(Repair::kFan));
-  DepthOptions options;
-  options.strategy = Strategy::kCurvature;
-  options.cull = false;
+  DepthOptions options{.strategy = Strategy::kCurvature, .cull = false};
   IndexedMesh<float> out;
   tessellator.frame(options, Camera{}, out);
   for (const std::int32_t d : tessellator.last_pairing().depth) EXPECT_EQ(d, 0);

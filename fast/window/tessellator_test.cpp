@@ -10,7 +10,6 @@
 #include "data/splitmix64.h"
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/patch.h"
-#include "fast/test_support/collecting_sink.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/global_refinement.h"
 #include "fast/test_support/test_meshes.h"
@@ -71,8 +70,7 @@ TEST(Sec5_Frame, EveryPointLiesWhereItsProvenanceSays) {
   for (const auto& [name, mesh, loops] : shapes()) {
     data::SplitMix64 random(11);
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      TessellatorOptions options;
-      options.provenance = true;
+      TessellatorOptions options{.provenance = true};
       options.cracks.repair = repair;
       Tessellator<double> tessellator(mesh, options);
       for (int round = 0; round < 6; ++round) {
@@ -123,14 +121,11 @@ TEST(Sec5_Frame, IsWatertightBitByBitWithNormalsInFloat) {
 }
 TEST(Sec4_Frame, OpensOnlyWhereCulledFacesBegin) {
   data::ControlMesh mesh = shaken(grid_torus(12, 16), .15, 14);
-  Camera camera;
-  camera.eye = {1, 5, 3};
+  Camera camera{.eye = {1, 5, 3}};
   for (const Strategy strategy : {Strategy::kUniform, Strategy::kRandom, Strategy::kProjectSphere,
                                   Strategy::kCurvature, Strategy::kCombined}) {
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      DepthOptions depth;
-      depth.strategy = strategy;
-      depth.cull = true;
+      DepthOptions depth{.strategy = strategy, .cull = true};
       TessellatorOptions options;
       options.cracks.repair = repair;
       Tessellator<float> tessellator(mesh, options);
@@ -302,8 +297,7 @@ TEST(Sec5_Plan, AFaceIsAFanIfAnEdgeIsDeeperThanItself) {
 
 TEST(Sec5_Plan, AFaceIsStitchedFromDepthTwoOn) {
   const Adjacency adjacency(grid_torus(4, 4));
-  CrackOptions options;
-  options.repair = Repair::kStitch;
+  CrackOptions options{.repair = Repair::kStitch};
   for (const std::int32_t own : {0, 1, 2, 3}) {
     std::vector<std::int32_t> depth(32, own);
     depth[5] = own + 2;
@@ -342,9 +336,7 @@ TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
   std::vector<DrawList<float>> lists;
   std::vector<IndexedMesh<float>> meshes;
   for (const int threads : {1, 2, 8}) {
-    TessellatorOptions options;
-    options.threads = threads;
-    options.provenance = true;
+    TessellatorOptions options{.threads = threads, .provenance = true};
     Tessellator<float> tessellator(mesh, options);
     for (int again = 0; again < 2; ++again) {
       tessellator.frame(depth, lists.emplace_back());
@@ -363,8 +355,7 @@ TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Sec4_Sinks, OnTheFlyDeliversTheSameAsTheWholeList) {
-  TessellatorOptions options;
-  options.provenance = true;
+  TessellatorOptions options{.provenance = true};
   Tessellator<float> tessellator(grid_torus(32, 40), options);
   expect_a_sink_gets_the_whole_list(tessellator);
 }

@@ -175,8 +175,7 @@ TEST(Shrink, AWrongWeightAtOneValenceComesDownToOneVertex) {
   EXPECT_TRUE(is_bad(again));
 
   const TestFolder folder;
-  Report report;
-  report.depth = small.depth;
+  Report report{.depth = small.depth};
   const auto place = write_witness(folder.path(), report, again, small.mesh, "quick");
   EXPECT_EQ(data::read_mesh(place / "control.obj").positions, small.mesh.mesh.positions);
   const auto json = nlohmann::json::parse(std::ifstream(place / "witness.json"));

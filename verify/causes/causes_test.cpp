@@ -22,16 +22,15 @@ namespace limitcheck::verify {
 namespace {
 
 Result red(const std::string& subject, const std::string& mesh, const std::string& check, double worst) {
-  Result r;
-  r.subject = subject;
-  r.mesh = mesh;
-  r.check = check;
-  r.status = Status::kFinding;
-  r.bad = 1;
-  r.of = 10;
-  r.worst = worst;
-  r.bound = 1e-6;
-  r.unit = check == "normals" ? "degrees" : "diagonal";
+  Result r{.subject = subject,
+           .mesh = mesh,
+           .check = check,
+           .status = Status::kFinding,
+           .bad = 1,
+           .of = 10,
+           .worst = worst,
+           .bound = 1e-6,
+           .unit = check == "normals" ? "degrees" : "diagonal"};
   return r;
 }
 

@@ -35,8 +35,7 @@ int shared_edge() {
 
 // A fan round one point, out to the border.
 Script fan_round(lc_provenance middle, const std::vector<lc_provenance>& rim) {
-  Script s;
-  s.points = rim;
+  Script s{.points = rim};
   const auto count = static_cast<std::uint32_t>(rim.size());
   s.points.push_back(middle);
   for (std::uint32_t k = 0; k < count; ++k) s.triangles.push_back({count, k, (k + 1) % count});
@@ -101,8 +100,7 @@ std::uint32_t point(std::uint32_t n, std::uint32_t i, std::uint32_t j) {
 // Unit triangles, or the same points with every rhombus inside cut along its long diagonal: up (i, j) and the
 // down triangle to its left make (i, j) (i+1, j) (i-1, j+1) (i, j+1).
 Script tiling(std::uint32_t n, bool other_diagonals) {
-  Script s;
-  s.points = lattice_points(n);
+  Script s{.points = lattice_points(n)};
   const auto at = [&](std::uint32_t i, std::uint32_t j) { return point(n, i, j); };
   for (std::uint32_t j = 0; j < n; ++j)
     for (std::uint32_t i = 0; i + j < n; ++i) {

@@ -99,8 +99,7 @@ TEST(Sec5_EdgeDepth, MustBeTheMaximumOfBothFaces) {
     const auto depth = random_depths(mesh.faces.size(), 0, 4, random);
     for (const EdgeDepthRule rule :
          {EdgeDepthRule::kMaximum, EdgeDepthRule::kRespective, EdgeDepthRule::kTwoOrMore}) {
-      PrintedRules rules;
-      rules.edge_depth = rule;
+      PrintedRules rules{.edge_depth = rule};
       Tessellator<float> tessellator(mesh, {}, rules);
       DrawList<float> list;
       tessellator.frame(depth, list);
@@ -182,8 +181,7 @@ TEST(Sec5_Watertight, AHundredFramesOfFourThousandFaces) {
 
 TEST(Sec5_Centre, IsNoVertexOfAnyFiniteSubdivision) {
   RecordProperty("claim", "C61");
-  TessellatorOptions options;
-  options.provenance = true;
+  TessellatorOptions options{.provenance = true};
   Tessellator<double> tessellator(data::octahedron(), options);
   for (int depth = 0; depth <= 7; ++depth) {
     DrawList<double> list;
@@ -351,8 +349,7 @@ TEST(Sec43_Singletons, ShowTheirOwnFaceAndNothingElse) {
   for (const auto& mesh :
        {data::triangle(), data::wheel(3, 1), data::strip(5), data::fan(3, 1), data::tetrahedron()}) {
     for (int depth = 0; depth <= 4; ++depth) {
-      TessellatorOptions options;
-      options.provenance = true;
+      TessellatorOptions options{.provenance = true};
       Tessellator<float> tessellator(mesh, options);
       DrawList<float> list;
       // a culled face leaves its neighbour without a partner, whose dummy it then is

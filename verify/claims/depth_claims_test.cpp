@@ -57,12 +57,9 @@ TEST(Sec41_Depth, TakesSevenValuesOfWhichTheDeepestIs1024Triangles) {
   RecordProperty("claim", "C22");
   const Scene scene(800);
   std::set<std::int32_t> met;
-  DepthOptions options;
-  options.strategy = Strategy::kProjectSphere;
-  options.target_pixels = 10;
+  DepthOptions options{.strategy = Strategy::kProjectSphere, .target_pixels = 10};
   for (const double distance : {2., 4., 8., 16., 32., 64., 128.}) {
-    Camera camera;
-    camera.eye = {0, 0, distance};
+    Camera camera{.eye = {0, 0, distance}};
     for (const std::int32_t d : scene.heuristics.depths(options, camera)) met.insert(d);
   }
   EXPECT_EQ(met, (std::set<std::int32_t>{-1, 0, 1, 2, 3, 4, 5}));

@@ -88,8 +88,7 @@ TEST(Sec1_Triangles, PerControlTriangleAre64To1024AtDepthsThreeToFive) {
 // only three in five are seen, and these fill it, each has so many more.
 TEST(Sec1_ScreenSize, OfTwentyThousandTrianglesIsThirtyNinePixelsAndSixtyFiveIfTwoInFiveFaceAway) {
   RecordProperty("claim", "C03");
-  fast::Camera camera;
-  camera.eye = {0, 0, 1};
+  fast::Camera camera{.eye = {0, 0, 1}};
   camera.field_of_view = 90;  // half of the height is 1
   const double half = static_cast<double>(camera.width) / camera.height;
   const auto corner = [&](int i, int j) {
@@ -232,8 +231,7 @@ double processor_seconds() {
 TEST(Sec7_TenThousandTriangles, OfEightHundredFacesTakeLessThanATenthOfASecond) {
   RecordProperty("claim", "C78");
   const auto mesh = data::bumpy_sphere(800, 1);
-  fast::TessellatorOptions options;
-  options.threads = 1;
+  fast::TessellatorOptions options{.threads = 1};
   fast::Tessellator<float> engine(mesh, options);
   for (const Strategy strategy : {Strategy::kProjectSphere, Strategy::kCombined}) {
     const char* key = strategy == Strategy::kCombined ? "combined" : "project_sphere";
@@ -263,8 +261,7 @@ using fast::row_stream::StreamTessellator;
 
 fast::Camera turned(double degrees) {
   const double angle = degrees * std::numbers::pi / 180;
-  fast::Camera camera;
-  camera.eye = {4 * std::sin(angle), 0, 4 * std::cos(angle)};
+  fast::Camera camera{.eye = {4 * std::sin(angle), 0, 4 * std::cos(angle)}};
   return camera;
 }
 
@@ -302,8 +299,7 @@ Turn turn(StreamTessellator& engine, const fast::DepthOptions& strategy, bool st
 TEST(Sec7_TemporalCoherence, LeavesMostOfAFrameAsItWas) {
   RecordProperty("claim", "C86");
   StreamTessellator engine(data::bumpy_sphere(800, 1));
-  fast::DepthOptions strategy;
-  strategy.strategy = fast::Strategy::kCombined;
+  fast::DepthOptions strategy{.strategy = fast::Strategy::kCombined};
   const Turn pairs = turn(engine, strategy, false), sticky = turn(engine, strategy, true);
   EXPECT_GT(pairs.kept(), 50);
   EXPECT_GT(sticky.kept(), pairs.kept());

@@ -27,11 +27,8 @@ struct Scene {
   Scene(int faces, std::uint64_t seed) : Scene(data::bumpy_sphere(faces, seed)) {}
 
   std::vector<std::int32_t> depths(Strategy strategy, bool cull = false, std::uint64_t seed = 1) const {
-    fast::DepthOptions options;
-    options.strategy = strategy;
-    options.depth = strategy == Strategy::kRandom ? 5 : 3;
-    options.seed = seed;
-    options.cull = cull;
+    fast::DepthOptions options{
+        .strategy = strategy, .depth = strategy == Strategy::kRandom ? 5 : 3, .seed = seed, .cull = cull};
     return heuristics.depths(options, {});
   }
   fast::PairingResult pair(const std::vector<std::int32_t>& depth, PairingRule rule,

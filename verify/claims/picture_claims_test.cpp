@@ -34,8 +34,7 @@ class Views {
   }
   static const Seen& adaptive(int faces, Strategy strategy, double pixels,
                               fast::Repair repair = fast::Repair::kFan) {
-    fast::CrackOptions cracks;
-    cracks.repair = repair;
+    fast::CrackOptions cracks{.repair = repair};
     return seen(faces, fmt::format("{} {} {}", name(strategy), pixels, static_cast<int>(repair)),
                 verify::adaptive(strategy, pixels), cracks);
   }

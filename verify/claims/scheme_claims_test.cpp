@@ -54,8 +54,7 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
   constexpr int kRandom = 40;
   int open = 0;
   for (std::uint64_t seed = 1; seed <= kRandom; ++seed) {
-    data::RandomMeshOptions size;
-    size.faces = 60;
+    data::RandomMeshOptions size{.faces = 60};
     const auto mesh = data::random_mesh(seed, size);
     const auto refined = reference::refine<double>(mesh, 1);
     EXPECT_TRUE(std::all_of(refined.positions().begin(), refined.positions().end(), [](const V& p) {

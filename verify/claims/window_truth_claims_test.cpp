@@ -58,8 +58,7 @@ template <class Real>
 void compare(const std::string& name, const data::ControlMesh& mesh,
              const reference::StamEvaluator<double>& truth, const std::vector<std::int32_t>& depth,
              fast::Repair repair, std::size_t samples, Worst& worst) {
-  fast::TessellatorOptions options;
-  options.provenance = true;
+  fast::TessellatorOptions options{.provenance = true};
   options.cracks.repair = repair;
   fast::Tessellator<Real> tessellator(mesh, options);
   fast::IndexedMesh<Real> out;

@@ -87,8 +87,7 @@ TEST_F(AuditOutput, AWaivedFindingIsNoFindingAndASuperfluousWaiverIsReported) {
     {"subject":"faulty:*","check":"*","shape":"tetrahedron","reason":"planted","expires":"2999-12-31"},
     {"subject":"other","check":"positions","reason":"gone","expires":"2999-12-31"},
     {"subject":"faulty:*","check":"positions","reason":"old","expires":"2001-01-01"}]})");
-  const Outcome o = run(audit + "--waivers waivers.json --json report.json");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const Outcome o = run(audit + "--waivers waivers.json --json report.json", 0);
   const auto report = json_in("report.json");
   int waived = 0, notes = 0;
   for (const auto& row : report["results"]) {
@@ -102,8 +101,7 @@ TEST_F(AuditOutput, AWaivedFindingIsNoFindingAndASuperfluousWaiverIsReported) {
 }
 
 TEST_F(AuditOutput, EveryCheckIsExplained) {
-  const Outcome o = run("audit --explain positions");
-  EXPECT_EQ(o.code, 0);
+  const Outcome o = run("audit --explain positions", 0);
   EXPECT_TRUE(says(o.out, "bound"));
   EXPECT_EQ(run("audit --explain nonsense").code, 2);
   EXPECT_EQ(run("audit --explain extreme-scale").out, run("audit --explain scaling").out) << "its new name";
@@ -126,8 +124,7 @@ using AuditCauses = AuditOutput;
 
 TEST_F(AuditCauses, EachHasACommandThatShowsTheDifference) {
   const Outcome o =
-      run("audit all fan:1 fan:5 prism:3 quad-fan:2 quad-dart:4 wheel:50 --depth 2 --json report.json");
-  ASSERT_EQ(o.code, 1) << o.err;
+      run("audit all fan:1 fan:5 prism:3 quad-fan:2 quad-dart:4 wheel:50 --depth 2 --json report.json", 1);
   EXPECT_LE(std::count(o.out.begin(), o.out.end(), '\n'), 50) << o.out;
   const json report = json_in("report.json");
   ASSERT_GE(report["causes"].size(), 8U);
@@ -135,8 +132,7 @@ TEST_F(AuditCauses, EachHasACommandThatShowsTheDifference) {
   for (const json& cause : report["causes"]) {
     const std::string command = cause["command"];
     ASSERT_TRUE(command.starts_with("limitcheck ")) << cause;
-    const Outcome again = run(command.substr(11));
-    EXPECT_EQ(again.code, 1) << command << "\n" << again.out << again.err;
+    const Outcome again = run(command.substr(11), 1);
     if (!command.starts_with("limitcheck eval ")) continue;
     ++shown;
     EXPECT_TRUE(says(again.out, "<-- wrong")) << command;
@@ -175,8 +171,7 @@ TEST_F(AuditCauses, ThePageHasEverythingInside) {
 TEST_F(AuditCauses, AgainstABaselineOnlyWhatIsNewOrWorseIsAFinding) {
   const std::string audit = "audit opensubdiv-bfr bumpy:20 --depth 2 --level quick ";
   ASSERT_EQ(run(audit + "--json old.json").code, 1);
-  const Outcome same = run(audit + "--baseline old.json");
-  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  const Outcome same = run(audit + "--baseline old.json", 0);
   EXPECT_TRUE(says(same.out, "since old.json: 0 new, 0 worse, 0 gone"));
   const Outcome more = run("audit opensubdiv-bfr bumpy:20 fan:1 --depth 2 --level quick --baseline old.json");
   EXPECT_EQ(more.code, 1) << "another mesh has new ones";
@@ -224,8 +219,7 @@ class WitnessFiles : public CommandTest {
       const std::string check = witness.at("check");
       const std::string again = witness.at("audit");
       EXPECT_TRUE(again.starts_with("limitcheck ")) << again;
-      const Outcome audit = run(again.substr(11) + " --json again.json");
-      EXPECT_EQ(audit.code, 1) << again << audit.err;
+      const Outcome audit = run(again.substr(11) + " --json again.json", 1);
       bool found = false;
       const json repeated = json_in("again.json");
       for (const auto& row : repeated["results"])
@@ -233,8 +227,7 @@ class WitnessFiles : public CommandTest {
       EXPECT_TRUE(found) << check << ": " << again;
       if (!witness.contains("eval")) continue;
       const std::string eval = witness.at("eval");
-      const Outcome point = run(eval.substr(11) + " --json");
-      EXPECT_EQ(point.code, 0) << eval << point.err;
+      const Outcome point = run(eval.substr(11) + " --json", 0);
       EXPECT_EQ(json::parse(point.out)["position"], witness.at("limit_position")) << eval;
       EXPECT_EQ(json::parse(point.out)["normal"], witness.at("limit_normal")) << eval;
     }
@@ -265,8 +258,8 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
   const Outcome o =
       run("audit opensubdiv-bfr pawn.obj --triangulate shortest-diagonal --depth 2 --level quick --witnesses "
           "found "
-          "--json -");
-  EXPECT_EQ(o.code, 1) << o.err;
+          "--json -",
+          1);
   EXPECT_GT(expect_reproducible("found"), 2);
   int commands = 0;
   const json report = json::parse(o.out);
@@ -281,8 +274,7 @@ TEST_F(WitnessFiles, NameTheWayInWhichPolygonsWereCut) {
     }
     if (row["witness"]["command"].is_null()) continue;
     const std::string eval = row["witness"]["command"];
-    const Outcome point = run(eval.substr(11) + " --json");
-    ASSERT_EQ(point.code, 0) << eval << point.err;
+    const Outcome point = run(eval.substr(11) + " --json", 0);
     if (row["check"] != "positions") continue;
     for (std::size_t axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(std::stod(json::parse(point.out)["position"][axis].get<std::string>()),
@@ -307,8 +299,7 @@ TEST_F(WitnessFiles, OfCatmullClarksSurfacesShowTheFindingAgain) {
 
 TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
   const Outcome o =
-      run("audit model:mutation=warren_declared octahedron --depth 1 --level quick --witnesses found");
-  EXPECT_EQ(o.code, 1) << o.err;
+      run("audit model:mutation=warren_declared octahedron --depth 1 --level quick --witnesses found", 1);
   EXPECT_GT(expect_reproducible("found"), 0);
   for (const auto& entry : fs::directory_iterator(folder_ / "found")) {
     const json witness = json_in(entry.path() / "witness.json");
@@ -320,16 +311,15 @@ TEST_F(WitnessFiles, NameTheFamilyOfWeights) {
 TEST_F(WitnessFiles, CarryTheDepthsOfTheFaces) {
   const Outcome o =
       run("audit sliding-window icosahedron --depth 2 --depths random:3 --option repair=none --level quick "
-          "--witnesses found");
-  EXPECT_EQ(o.code, 1) << o.err;
+          "--witnesses found",
+          1);
   EXPECT_GT(expect_reproducible("found"), 0);
 }
 
 TEST_F(WitnessFiles, AreSmallAfterShrinking) {
   for (const char* audited : {"model:mutation=weight_1e-6_at_valence_5 random:5:300",
                               "quad-model:mutation=weight_1e-6_at_valence_5 mixed:4:300"}) {
-    const Outcome o = run(std::string("audit ") + audited + " --depth 2 --level quick --shrink 60");
-    EXPECT_EQ(o.code, 1) << o.err;
+    const Outcome o = run(std::string("audit ") + audited + " --depth 2 --level quick --shrink 60", 1);
     EXPECT_TRUE(says(o.err, "shrunk to"));
     EXPECT_GT(expect_reproducible("limitcheck-witness"), 0);
     for (const auto& entry : fs::directory_iterator(folder_ / "limitcheck-witness"))

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,14 @@ inline const std::string kTellsWhatItCan =
 class CommandTest : public testing::Test {
  protected:
   /// `limitcheck ARGUMENTS` (quoted for the shell).
-  Outcome run(const std::string& arguments) const { return command("'" LIMITCHECK_PROGRAM "' " + arguments); }
+  ///   code   the exit code that is expected, if one is; so below
+  Outcome run(const std::string& arguments, std::optional<int> code = {}) const {
+    return command("'" LIMITCHECK_PROGRAM "' " + arguments, code);
+  }
   /// Bash on a script of these lines, in which `limitcheck` is the program.
-  Outcome shell(const std::string& script) const {
+  Outcome shell(const std::string& script, std::optional<int> code = {}) const {
     write("script.sh", "limitcheck() { \"" LIMITCHECK_PROGRAM "\" \"$@\"; }\n" + script + "\n");
-    return command("bash script.sh");
+    return command("bash script.sh", code);
   }
   /// `limitcheck ARGUMENTS`, which gets the signal once the shell finds `ready` true.
   ///   sleeper   the seconds that a `sleep` sleeps, which must not be left behind (else the exit code is 9)
@@ -47,16 +51,16 @@ class CommandTest : public testing::Test {
                  " $!\nwait $!\ncode=$?\nls tmp\nfor k in {1..100}; do grep -aqs 'sle[e]p." + sleeper +
                  "' /proc/[0-9]*/cmdline || exit $code; sleep 0.05; done\nexit 9");
   }
-  Outcome command(const std::string& words) const {
+  Outcome command(const std::string& words, std::optional<int> code = {}) const {
     const int status = std::system(
         ("cd '" + folder_.string() + "' && " + words + " > .stdout 2> .stderr < /dev/null").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
+    const Outcome o{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
+    EXPECT_TRUE(!code || o.code == *code) << words << ": " << o.code << "\n" << o.out << o.err;
+    return o;
   }
   /// What a command prints as JSON, or has written to a file.
-  ///   code   its exit code; -1: any
-  nlohmann::json json_of(const std::string& arguments, int code = -1) const {
-    const Outcome o = run(arguments);
-    EXPECT_TRUE(code < 0 || o.code == code) << arguments << ": " << o.code << "\n" << o.out << o.err;
+  nlohmann::json json_of(const std::string& arguments, std::optional<int> code = {}) const {
+    const Outcome o = run(arguments, code);
     nlohmann::json json = nlohmann::json::parse(o.out, nullptr, false);
     EXPECT_FALSE(json.is_discarded()) << o.out << o.err;
     return json;

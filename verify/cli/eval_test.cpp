@@ -252,8 +252,7 @@ TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
 
 TEST_F(EvalCommand, SaysWhatIsWrongWithAFaceAndItsParameters) {
   const auto error = [&](const std::string& arguments) {
-    const Outcome o = run("eval " + arguments);
-    EXPECT_EQ(o.code, 2) << arguments;
+    const Outcome o = run("eval " + arguments, 2);
     EXPECT_EQ(o.out, "") << arguments;
     return o.err;
   };

@@ -30,8 +30,7 @@ class HuntCommand : public CommandTest {
 };
 
 TEST_F(HuntCommand, SmallMeshesAndCommandsShowWhatWasFound) {
-  const Outcome o = run(std::string(kHunt) + "--json r.json --junit r.xml --witnesses w");
-  EXPECT_EQ(o.code, 1) << o.err;
+  const Outcome o = run(std::string(kHunt) + "--json r.json --junit r.xml --witnesses w", 1);
   EXPECT_TRUE(says(o.out, "beside another extraordinary one"));
   EXPECT_TRUE(says(read("r.xml"), "beside another extraordinary one"));
   const json r = report("r.json");
@@ -47,8 +46,7 @@ TEST_F(HuntCommand, SmallMeshesAndCommandsShowWhatWasFound) {
   EXPECT_GT(small, 0);
   for (const auto& file : std::filesystem::directory_iterator(folder_))
     EXPECT_FALSE(says(file.path().string(), ".part")) << file.path();
-  const Outcome again = run(std::string(kHunt) + "--baseline r.json");
-  EXPECT_EQ(again.code, 0) << again.out;
+  const Outcome again = run(std::string(kHunt) + "--baseline r.json", 0);
 }
 
 TEST_F(HuntCommand, PartsAreMergedToTheWhole) {
@@ -68,8 +66,7 @@ TEST_F(HuntCommand, OneThatWasKilledGoesOnWhereItWas) {
   EXPECT_EQ(run(std::string(kHunt) + "--json whole.json --jobs 2").code, 1);
   (void)signalled(std::string(kHunt) + "--json r.json --jobs 2", "[ -e r.json.part1 ]", "KILL");
   (void)shell("sleep 1");
-  const Outcome o = run(std::string(kHunt) + "--json r.json --jobs 2 --resume");
-  EXPECT_EQ(o.code, 1) << o.err;
+  const Outcome o = run(std::string(kHunt) + "--json r.json --jobs 2 --resume", 1);
   EXPECT_EQ(report("r.json"), report("whole.json"));
   write("r.json.part1", read("whole.json"));
   EXPECT_EQ(run(std::string(kHunt) + "--json r.json --jobs 2 --resume").code, 2)
@@ -86,8 +83,7 @@ TEST_F(HuntCommand, ASignalEndsItWithWhatItHas) {
 
 TEST_F(HuntCommand, ASubjectThatDiesIsAFinding) {
   write("dies.sh", "read -r line\nkill -SEGV $$\n");
-  const Outcome o = run("hunt --program 'bash dies.sh' --cases 2 --attempts 4 --json r.json");
-  EXPECT_EQ(o.code, 1) << o.err << o.out;
+  const Outcome o = run("hunt --program 'bash dies.sh' --cases 2 --attempts 4 --json r.json", 1);
   bool crash = false;
   const json r = report("r.json");
   for (const json& f : r["findings"]) crash = crash || f["status"] == "crash";
@@ -105,8 +101,7 @@ TEST_F(HuntCommand, NonsenseIsRefused) {
 class ProveCommand : public CommandTest {};
 
 TEST_F(ProveCommand, PrintsOneJsonDocumentWithARowForEveryTopologyAndKernel) {
-  const Outcome o = run("prove --depth 0 --valences 3,4 --kernel sliding-window --json");
-  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome o = run("prove --depth 0 --valences 3,4 --kernel sliding-window --json", 0);
   EXPECT_EQ(o.err, "");
   const json said = json::parse(o.out);
   EXPECT_TRUE(said["held"].get<bool>());
@@ -166,8 +161,7 @@ TEST_F(ClaimsCommand, WithoutItsTestProgramsNothingIsConfirmed) {
 
 TEST_F(ClaimsCommand, ACommandThatAnInstallationLacksSaysWhereItIs) {
   for (const std::string command : {"bench", "reproduce"}) {
-    const Outcome o = shell("cp '" LIMITCHECK_PROGRAM "' alone && ./alone " + command);
-    EXPECT_EQ(o.code, 2) << command;
+    const Outcome o = shell("cp '" LIMITCHECK_PROGRAM "' alone && ./alone " + command, 2);
     EXPECT_TRUE(says(o.err, "`bash verify/run.sh " + command + "` makes it"));
   }
 }
@@ -197,14 +191,12 @@ TEST_F(ClaimsCommand, ASignalLeavesNothingBehind) {
 }
 
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {
-  const Outcome o = run("claims C87");
-  EXPECT_EQ(o.code, 2);
+  const Outcome o = run("claims C87", 2);
   EXPECT_TRUE(says(o.err, "C01 to C86"));
 }
 
 TEST_F(ClaimsCommand, WritesTheErrata) {
-  const Outcome o = run("claims --errata");
-  EXPECT_EQ(o.code, 0);
+  const Outcome o = run("claims --errata", 0);
   EXPECT_TRUE(says(o.out, "| C69 | Appendix A |"));
 }
 

@@ -71,8 +71,7 @@ TEST_F(Merge, OfExhaustiveAuditsNamesTheNeighbourhoodThatIsWrong) {
   EXPECT_FALSE(wrong["right"].get<bool>());
   EXPECT_EQ(wrong["looked_at"], wrong["neighbourhoods"]);
   for (const json& star : wrong["examples"]) EXPECT_TRUE(says(star.get<std::string>(), "w=.JJ")) << star;
-  const Outcome right = run("audit row-stream --exhaustive 3 --json right.json");
-  EXPECT_EQ(right.code, 0);
+  const Outcome right = run("audit row-stream --exhaustive 3 --json right.json", 0);
   for (const json& scheme : json::parse(read("right.json"))["exhaustive"]) {
     EXPECT_TRUE(scheme["right"].get<bool>());
     EXPECT_TRUE(says(right.out, "right on every neighbourhood up to valence 3: " +
@@ -137,8 +136,7 @@ TEST_F(Merge, WrongPartsAreRefused) {
                   {"part1.json whole.json", "whole.json: this is no part that --shard has made"},
                   {"part1.json nothing.json", "nothing.json"}};
   for (const auto& [parts, sentence] : wrong) {
-    const Outcome o = run(std::string("merge -o wrong.json ") + parts);
-    EXPECT_EQ(o.code, 2) << parts;
+    const Outcome o = run(std::string("merge -o wrong.json ") + parts, 2);
     EXPECT_TRUE(says(o.err, sentence));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "wrong.json"));
   }
@@ -212,8 +210,7 @@ TEST_F(Merge, AResultOfAMutantIsNoneOfRightSubjects) {
           {unit, {{"mutant", "another"}, {"killed_by", {"positions"}}, {"on", "cube"}}});
     write(std::string("m") + shard[0] + ".json", verify::sealed(part));
   }
-  const Outcome o = run("merge m1.json m2.json -o x.json");
-  EXPECT_EQ(o.code, 2) << o.out;
+  const Outcome o = run("merge m1.json m2.json -o x.json", 2);
   EXPECT_TRUE(says(o.err, "unit 0 is a case of right subjects, and its result is of another kind"));
 }
 
@@ -232,8 +229,7 @@ TEST_F(Merge, AJournalInWhichAllUnitsAreTheFirstIsRefused) {
     journal += k == 0 ? line + "\n" : verify::sealed(record);
   }
   write("r.jsonl", journal);
-  const Outcome o = run(all + "--resume");
-  EXPECT_EQ(o.code, 2);
+  const Outcome o = run(all + "--resume", 2);
   EXPECT_TRUE(says(o.err, "unit 1, naive on tetrahedron: the row tessellates is of naive on octahedron"));
 }
 
@@ -242,8 +238,7 @@ TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
        {"audit naive octahedron --depth 1 --level quick", "prove --valences 3 --depth 0 --kernel row-stream",
         "hunt naive --cases 2 --attempts 0 --in-process --jobs 1"}) {
     EXPECT_EQ(run(std::string(command) + " --json r.json").code, 0) << command;
-    const Outcome whole = run("merge --verify r.json");
-    EXPECT_EQ(whole.code, 0) << command << whole.out;
+    const Outcome whole = run("merge --verify r.json", 0);
     EXPECT_TRUE(says(whole.out, "r.json: whole and as it was written, by limitcheck"));
     EXPECT_TRUE(says(whole.out, " of this program"));
     const json report = json_in("r.json");
@@ -252,8 +247,7 @@ TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
     std::string text = read("r.json");
     text[text.find("\"version\": \"") + 13] = '9';
     write("altered.json", text);
-    const Outcome altered = run("merge --verify altered.json");
-    EXPECT_EQ(altered.code, 1) << command;
+    const Outcome altered = run("merge --verify altered.json", 1);
     EXPECT_TRUE(says(altered.out, "altered.json: it was altered or damaged"));
     EXPECT_EQ(altered.err, "");
   }
@@ -275,8 +269,7 @@ TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
   EXPECT_TRUE(
       says(sealed_again(edited), "positions of naive on octahedron says held, and its numbers say finding"));
   write("edited.json", report.dump());
-  const Outcome none = run("merge --verify edited.json");
-  EXPECT_EQ(none.code, 2);
+  const Outcome none = run("merge --verify edited.json", 2);
   EXPECT_TRUE(says(none.err, "it carries no digest"));
   expect_refused("merge", {"--verify gone.json", "--verify r.json r.json", "-o x.json", "r.json"});
 }
@@ -361,8 +354,7 @@ TEST_F(Resume, AnAuditThatWasKilledGoesOnWhereItWas) {
   EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2) << journal;
   std::ofstream(folder_ / "r.jsonl", std::ios::app) << R"({"subject": "prog)";  // killed while it wrote
 
-  const Outcome o = run(std::string(kArguments) + "--resume");
-  EXPECT_EQ(o.code, 1) << o.err;
+  const Outcome o = run(std::string(kArguments) + "--resume", 1);
   const json report = json_in("r.json");
   EXPECT_TRUE(report["incomplete"].is_null());
   const auto said = [&](const char* mesh) {
@@ -381,13 +373,11 @@ TEST_F(Resume, AnotherAuditIsNotResumed) {
         std::pair{"octahedron", "icosahedron"}}) {
     std::string other = kArguments;
     other.replace(other.find(was), std::string(was).size(), is);
-    const Outcome o = run(other + "--resume");
-    EXPECT_EQ(o.code, 2) << other;
+    const Outcome o = run(other + "--resume", 2);
     EXPECT_TRUE(says(o.err, "--resume: r.jsonl is of another plan"));
   }
   write("m.off", kVertices + "3 0 1 2\n5 3 4 5 6 7\n");  // the same corners in faces of other sizes
-  const Outcome o = run(std::string(kArguments) + "--resume");
-  EXPECT_EQ(o.code, 2);
+  const Outcome o = run(std::string(kArguments) + "--resume", 2);
   EXPECT_TRUE(says(o.err, "--resume: r.jsonl is of another plan"));
   EXPECT_TRUE(says(run("audit naive tetrahedron --resume").err, "--resume needs --json"));
   EXPECT_TRUE(says(run("audit naive tetrahedron --json none.json --resume").err, "there is no none.jsonl"));

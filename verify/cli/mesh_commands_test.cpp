@@ -20,8 +20,7 @@ class GenerateCommand : public CommandTest {};
 // F = 2V - 4 on a closed surface of genus 0.                                                          [C71]
 TEST_F(GenerateCommand, WritesABumpySphereInEveryFormat) {
   for (const char* file : {"a.obj", "a.off", "a.ply"}) {
-    const Outcome o = run(std::string("generate bumpy:200 -o ") + file);
-    ASSERT_EQ(o.code, 0) << o.err;
+    const Outcome o = run(std::string("generate bumpy:200 -o ") + file, 0);
     const data::ControlMesh mesh = data::read_mesh(folder_ / file);
     EXPECT_EQ(mesh.faces.size(), 200U);
     EXPECT_EQ(mesh.positions.size(), 102U);
@@ -38,8 +37,7 @@ TEST_F(GenerateCommand, TheSeedDecidesTheMesh) {
 
 TEST_F(GenerateCommand, WritesPolygonsAsPolygonsInEveryFormat) {
   for (const char* file : {"a.obj", "a.off", "a.ply"}) {
-    const Outcome o = run(std::string("generate cube-quads -o ") + file);
-    ASSERT_EQ(o.code, 0) << o.err;
+    const Outcome o = run(std::string("generate cube-quads -o ") + file, 0);
     EXPECT_TRUE(o.err.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << o.err;
     EXPECT_EQ(data::read_mesh(folder_ / file), data::quad_cube()) << file;
   }
@@ -50,8 +48,7 @@ TEST_F(GenerateCommand, WritesPolygonsAsPolygonsInEveryFormat) {
   EXPECT_EQ(run("generate dual:bumpy:20 -o c.obj --seed 5").code, 0);
   EXPECT_NE(read("c.obj"), "");
 
-  const Outcome stl = run("generate cube-quads -o a.stl");
-  EXPECT_EQ(stl.code, 2);
+  const Outcome stl = run("generate cube-quads -o a.stl", 2);
   EXPECT_TRUE(says(stl.err, "STL is read, not written"));
 }
 
@@ -75,8 +72,7 @@ constexpr const char* kBroken =
 
 TEST_F(CheckCommand, ListsEveryFaultWithItsLineAndCountsAsTheFileDoes) {
   write("broken.obj", kBroken);
-  const Outcome o = run("check broken.obj");
-  EXPECT_EQ(o.code, 1) << o.err;
+  const Outcome o = run("check broken.obj", 1);
   EXPECT_TRUE(says(o.out, "broken.obj:6: MESH_INDEX_OUT_OF_RANGE: face 2 names vertex 9"));
   EXPECT_TRUE(says(o.out, "broken.obj:8: MESH_DEGENERATE_FACE: face 4 names vertex 3 twice"));
   EXPECT_TRUE(says(o.out, "broken.obj:11: MESH_ISOLATED_VERTEX: no face names vertex 5"));
@@ -110,8 +106,7 @@ TEST_F(CheckCommand, UnusedVerticesAreLeftOutAndNoFault) {
     EXPECT_EQ(rows(mesh), without) << mesh;
     EXPECT_EQ(run("audit sliding-window " + mesh + " --depth 1 --level quick").err,
               "limitcheck: warning: " + mesh + ": 2 vertices that no face names are left out\n");
-    const Outcome check = run("check " + mesh);
-    EXPECT_EQ(check.code, 0) << check.out;
+    const Outcome check = run("check " + mesh, 0);
     EXPECT_TRUE(says(check.out, "unused vertices     2, which an audit leaves out"));
     ASSERT_EQ(run("tessellate " + mesh + " -o fine.ply --depth 2").code, 0);
     EXPECT_EQ(run("audit --control " + mesh + " --tessellation fine.ply").code, 0);
@@ -124,8 +119,7 @@ TEST_F(CheckCommand, UnusedVerticesAreLeftOutAndNoFault) {
 
 TEST_F(CheckCommand, SummarisesAMeshWithoutFaults) {
   ASSERT_EQ(run("generate octahedron -o o.ply").code, 0);
-  const Outcome o = run("check o.ply");
-  EXPECT_EQ(o.code, 0) << o.err;
+  const Outcome o = run("check o.ply", 0);
   EXPECT_TRUE(says(o.out, "none: the mesh is closed"));
   const auto json = json_of("check o.ply --json");
   EXPECT_TRUE(json["valid"].get<bool>());
@@ -138,26 +132,22 @@ TEST_F(CheckCommand, NamesPolygonsNotTheTrianglesTheyBecome) {
   // Two quads and a third face on the edge that they share.
   write("book.obj",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 1 0 1\nf 1 2 3 4\nf 2 5 6 3\nf 3 2 7\n");
-  const Outcome o = run("check book.obj");
-  EXPECT_EQ(o.code, 1);
+  const Outcome o = run("check book.obj", 1);
   EXPECT_TRUE(says(o.out, "edge 2–3 has 3 faces (1, 2, 3)"));
 }
 
 TEST_F(CheckCommand, JudgesAMeshByItsSchemeAndCountsItsFacesBySize) {
   ASSERT_EQ(run("generate prism:5 -o prism.obj").code, 0);
-  const Outcome o = run("check prism.obj");
-  EXPECT_EQ(o.code, 0) << o.out;
+  const Outcome o = run("check prism.obj", 0);
   EXPECT_TRUE(o.out.starts_with("scheme: catmull-clark (not all faces are triangles)\n")) << o.out;
   EXPECT_TRUE(says(o.out, "7; by corners: 5 of 4, 2 of 5"));
   EXPECT_TRUE(says(o.out, "by neighbours: 10 of 3"));
 
-  const Outcome loop = run("check prism.obj --scheme loop");
-  EXPECT_EQ(loop.code, 1);
+  const Outcome loop = run("check prism.obj --scheme loop", 1);
   EXPECT_TRUE(loop.out.starts_with("scheme: loop (--scheme)\n")) << loop.out;
   EXPECT_TRUE(says(loop.out, "prism.obj:11: MESH_POLYGON: face 1 has 5 corners"));
 
-  const Outcome cut = run("check prism.obj --triangulate shortest-diagonal");
-  EXPECT_EQ(cut.code, 0) << cut.out;
+  const Outcome cut = run("check prism.obj --triangulate shortest-diagonal", 0);
   EXPECT_TRUE(
       cut.out.starts_with("scheme: loop (--triangulate shortest-diagonal cut 7 faces into triangles)\n"))
       << cut.out;
@@ -191,8 +181,7 @@ TEST_F(CheckCommand, RefusesWhatIsNoMesh) {
 TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
   write("broken.obj", kBroken);
   ASSERT_EQ(run("audit row-stream broken.obj --depth 1 --level quick").code, 2);
-  const Outcome o = run("repair broken.obj -o fixed.obj");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const Outcome o = run("repair broken.obj -o fixed.obj", 0);
   EXPECT_TRUE(says(o.out, "dropped 1 face that named a vertex which does not exist"));
   EXPECT_EQ(run("check fixed.obj").code, 0);
   EXPECT_EQ(run("audit row-stream fixed.obj --depth 1 --level quick").code, 0);
@@ -255,8 +244,7 @@ TEST_F(Scheme, IsTheFirstLineOfEveryCommand) {
        {"tessellate octahedron --depth 1", "audit naive octahedron --depth 1 --level quick",
         "audit model --depth 1 --level quick", "eval octahedron 0 0 0",
         "audit --control octahedron --tessellation out.ply"}) {
-    const Outcome o = run(command);
-    EXPECT_EQ(o.code, 0) << command << o.out << o.err;
+    const Outcome o = run(command, 0);
     EXPECT_EQ(first_line(o.out), kLoop) << command;
   }
   EXPECT_EQ(first_line(run("generate octahedron -o o.obj").err), kLoop);
@@ -268,8 +256,7 @@ TEST_F(Scheme, LoopsTakesPolygonsThatAreCutOnRequestAndSaysHowMany) {
        {"tessellate quad-cube --depth 1 --triangulate fan", "eval quad-cube 0 0 0 --triangulate fan",
         "audit naive quad-cube --depth 1 --level quick --triangulate fan",
         "audit --control quad-cube --tessellation out.ply --triangulate fan"}) {
-    const Outcome o = run(command);
-    EXPECT_EQ(o.code, 0) << command << o.out << o.err;
+    const Outcome o = run(command, 0);
     EXPECT_EQ(first_line(o.out), kCut) << command;
   }
   const auto json = json_of("tessellate quad-cube --depth 1 --triangulate fan --json");
@@ -285,8 +272,7 @@ TEST_F(Scheme, PolygonsAreRefusedForLoopsInASentenceThatNamesTheWaysOut) {
   for (const std::string mesh : {"quad-cube", "cube.ply"}) {
     for (const std::string& command : {"tessellate " + mesh, "audit naive " + mesh, "eval " + mesh + " 0 0 0",
                                        "audit --control " + mesh + " --tessellation out.ply"}) {
-      const Outcome o = run(command + " --scheme loop");
-      EXPECT_EQ(o.code, 2) << command;
+      const Outcome o = run(command + " --scheme loop", 2);
       EXPECT_EQ(o.out, "") << command;
       for (const char* part :
            {"6 of 6 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
@@ -324,8 +310,7 @@ TEST_F(Scheme, TessellationsOfQuadsAreRight) {
 TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
   ASSERT_EQ(run("generate prism:5 -o prism.off").code, 0);
   const std::string subject = "audit naive --depth 2 --level quick ";
-  const Outcome polygons = run(subject + "quad-cube prism.off");
-  EXPECT_EQ(polygons.code, 0) << polygons.out << polygons.err;
+  const Outcome polygons = run(subject + "quad-cube prism.off", 0);
   EXPECT_EQ(first_line(polygons.out), "scheme: catmull-clark (not all faces are triangles)");
   EXPECT_EQ(first_line(run(subject + "octahedron prism.off cube").out),
             "scheme: loop (2 of 3 meshes, whose faces are all triangles), catmull-clark (1)");
@@ -344,8 +329,7 @@ TEST_F(Scheme, OfAnAuditIsThatOfEachMesh) {
 }
 
 TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
-  const Outcome o = run("audit model quad-cube --depth 1 --level quick");
-  EXPECT_EQ(o.code, 2) << o.out;
+  const Outcome o = run("audit model quad-cube --depth 1 --level quick", 2);
   EXPECT_TRUE(says(o.out, "does Loop's scheme only needs --triangulate"));
   EXPECT_EQ(run("audit model quad-cube --depth 1 --level quick --triangulate fan").code, 0);
   EXPECT_EQ(run("audit model quad-cube cube --depth 1 --level quick").code, 0) << "one of them is judged";
@@ -353,11 +337,9 @@ TEST_F(Scheme, OfASubjectThatDoesLoopsOnlyLeadsToTriangulate) {
 
 TEST_F(Scheme, OfBrokenMeshesIsChosenLikewise) {
   write("twice.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 2 3 4 1\n");
-  const Outcome o = run("audit naive twice.obj --must-refuse");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const Outcome o = run("audit naive twice.obj --must-refuse", 0);
   EXPECT_EQ(first_line(o.out), "scheme: catmull-clark (not all faces are triangles)");
-  const Outcome cut = run("audit naive twice.obj --must-refuse --triangulate shortest-diagonal");
-  EXPECT_EQ(cut.code, 0) << cut.out << cut.err;
+  const Outcome cut = run("audit naive twice.obj --must-refuse --triangulate shortest-diagonal", 0);
   EXPECT_EQ(first_line(cut.out), "scheme: loop (--triangulate shortest-diagonal cut 2 faces into triangles)");
   ASSERT_EQ(run("generate quad-cube -o cube.obj").code, 0);
   EXPECT_EQ(run("audit naive cube.obj --must-refuse").code, 2) << "nothing is wrong with it";
@@ -369,8 +351,7 @@ TEST_F(Scheme, WhatIsNoManifoldOnceItIsCutIsRefused) {
   write("book.obj",
         "v 0 0 0\nv 1 -1 0\nv 2 0 0\nv 1 1 0\nv 1 1 1\nv 1 -1 1\nf 1 2 3 4\nf 1 5 3 6\nf 1 4 5\nf 4 3 5\n");
   EXPECT_EQ(run("eval book.obj 0 0 0").code, 0);
-  const Outcome o = run("tessellate book.obj --triangulate fan");
-  EXPECT_EQ(o.code, 2);
+  const Outcome o = run("tessellate book.obj --triangulate fan", 2);
   EXPECT_TRUE(says(o.err, "edge 1–3 has 4 faces (1, 1, 2, 2)"));
 }
 

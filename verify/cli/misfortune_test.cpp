@@ -21,8 +21,7 @@ TEST_F(Misfortune, AFullDiskBehindStandardOutputIsAnError) {
   for (const char* command : {"generate --list", "audit naive tetrahedron --depth 1 --level quick --json",
                               "audit naive tetrahedron --depth 1 --level quick", "eval icosahedron 0 1/3 1/3",
                               "tessellate icosahedron", "claims --errata", "--help", "--version"}) {
-    const Outcome o = shell(std::string("limitcheck ") + command + " > /dev/full");
-    EXPECT_EQ(o.code, 2) << command;
+    const Outcome o = shell(std::string("limitcheck ") + command + " > /dev/full", 2);
     EXPECT_TRUE(o.err.starts_with("limitcheck: ")) << command << ": " << o.err;
     EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << command << ": " << o.err;
   }
@@ -40,8 +39,7 @@ TEST_F(Misfortune, AMeshOfAbsurdSizeIsRefusedOrNotJudged) {
     for (const std::string& command :
          {"audit row-stream " + size + ".obj", "audit naive " + size + ".obj", "tessellate " + size + ".obj",
           "audit --control " + size + ".obj --tessellation " + size + ".obj"}) {
-      const Outcome o = run(command);
-      EXPECT_EQ(o.code, 2) << command;
+      const Outcome o = run(command, 2);
       EXPECT_TRUE(
           o.err.starts_with("limitcheck: " + size + ".obj: the largest coordinate is 1" + size.substr(0, 1)))
           << o.err;
@@ -56,13 +54,10 @@ TEST_F(Misfortune, AMeshOfAbsurdSizeIsRefusedOrNotJudged) {
 }
 
 TEST_F(Misfortune, ClosedStreamsDoNotLandInTheFiles) {
-  Outcome o = shell(kQuickAudit + std::string("--json report.json >&-"));
-  EXPECT_EQ(o.code, 2) << o.err;
+  Outcome o = shell(kQuickAudit + std::string("--json report.json >&-"), 2);
   EXPECT_TRUE(nlohmann::json::accept(read("report.json"))) << read("report.json");
-  o = shell("limitcheck eval no-such.obj 0 0 0 2>&-");
-  EXPECT_EQ(o.code, 2);
-  o = shell("limitcheck eval icosahedron 0 0 0 <&-");
-  EXPECT_EQ(o.code, 0) << o.err;
+  o = shell("limitcheck eval no-such.obj 0 0 0 2>&-", 2);
+  o = shell("limitcheck eval icosahedron 0 0 0 <&-", 0);
 }
 
 TEST_F(Misfortune, AReaderThatGoesAwayCostsNoReport) {
@@ -83,8 +78,7 @@ TEST_F(Misfortune, AReaderThatGoesAwayEndsTheProgramInSilence) {
       EXPECT_EQ(o.err, "") << before << command;
     }
   const Outcome o =
-      shell("trap '' PIPE; { sleep 0.5; limitcheck eval cube 0 0 0; } | true; exit ${PIPESTATUS[0]}");
-  EXPECT_EQ(o.code, 141);
+      shell("trap '' PIPE; { sleep 0.5; limitcheck eval cube 0 0 0; } | true; exit ${PIPESTATUS[0]}", 141);
   EXPECT_EQ(o.err, "");
 }
 
@@ -138,15 +132,14 @@ TEST_F(Misfortune, AReportThroughAPipeOrALinkLeavesThePipeAndTheLink) {
                                      std::string("limitcheck generate icosahedron -o link.obj"),
                                      std::string("limitcheck tessellate icosahedron -o link.obj")}) {
     o = shell("rm -f link.*; touch real; ln -s real link.obj; ln -s real link.obj.json; " + command +
-              "; test -L link.obj -a -L link.obj.json -a -s real && rm real");
-    EXPECT_EQ(o.code, 0) << command << o.err;
+                  "; test -L link.obj -a -L link.obj.json -a -s real && rm real",
+              0);
   }
 }
 
 TEST_F(Misfortune, AReportWhereADirectoryIsLeavesNothingBehind) {
-  const Outcome o =
-      shell("mkdir report.json; " + std::string(kQuickAudit) + "--json report.json; code=$?; ls; exit $code");
-  EXPECT_EQ(o.code, 2) << o.err;
+  const Outcome o = shell(
+      "mkdir report.json; " + std::string(kQuickAudit) + "--json report.json; code=$?; ls; exit $code", 2);
   EXPECT_TRUE(o.out.ends_with("report.json\nscript.sh\n")) << o.out;
   EXPECT_TRUE(says(o.out, "positions")) << "the table is there all the same";
 }
@@ -155,16 +148,14 @@ TEST_F(Misfortune, AReportWhereADirectoryIsLeavesNothingBehind) {
 #ifndef LIMITCHECK_SANITIZED
 TEST_F(Misfortune, NoMemoryIsOneLineAndExitCodeTwo) {
   const Outcome o = shell(
-      "ulimit -v 200000; limitcheck tessellate bumpy:4000 --depth 7 -o out.ply; code=$?; ls; exit $code");
-  EXPECT_EQ(o.code, 2);
+      "ulimit -v 200000; limitcheck tessellate bumpy:4000 --depth 7 -o out.ply; code=$?; ls; exit $code", 2);
   EXPECT_EQ(o.err, "limitcheck: out of memory\n");
   EXPECT_EQ(o.out, "script.sh\n");
 }
 #endif
 
 TEST_F(Misfortune, MorePointsThanMemoryAreRefusedBeforeHoursOfSwapping) {
-  const Outcome o = run("audit naive bumpy:4000 --depth 12");
-  EXPECT_EQ(o.code, 2);
+  const Outcome o = run("audit naive bumpy:4000 --depth 12", 2);
   EXPECT_EQ(o.out, "");
   EXPECT_TRUE(says(o.err, "bumpy:4000: the audit of 3.36e+10 points needs some 11753 GB"));
 }
@@ -172,13 +163,11 @@ TEST_F(Misfortune, MorePointsThanMemoryAreRefusedBeforeHoursOfSwapping) {
 TEST_F(Misfortune, FilesThatAreNoneAreRefused) {
   for (const char* file : {"''", "/", ".", "/dev/zero", "folder.obj", "empty.obj", "/dev/null"}) {
     const Outcome o =
-        shell(std::string("mkdir -p folder.obj; touch empty.obj; limitcheck eval ") + file + " 0 0 0");
-    EXPECT_EQ(o.code, 2) << file;
+        shell(std::string("mkdir -p folder.obj; touch empty.obj; limitcheck eval ") + file + " 0 0 0", 2);
     EXPECT_TRUE(o.err.starts_with("limitcheck: ")) << file << ": " << o.err;
   }
-  const Outcome o =
-      shell("truncate -s 5G large.obj; limitcheck eval large.obj 0 0 0; code=$?; rm large.obj; exit $code");
-  EXPECT_EQ(o.code, 2);
+  const Outcome o = shell(
+      "truncate -s 5G large.obj; limitcheck eval large.obj 0 0 0; code=$?; rm large.obj; exit $code", 2);
   EXPECT_TRUE(says(o.err, "FILE_TOO_LARGE"));
 }
 
@@ -222,9 +211,9 @@ TEST_F(Misfortune, OptionsThatNameNoFileOrNoNumberAreRefusedAtOnce) {
 }
 
 TEST_F(Misfortune, AFileThatMayNotGrowIsAnErrorAndNotHalfAFile) {
-  const Outcome o = shell("ulimit -f 1; " + std::string(kQuickAudit) +
-                          "--json report.json > /dev/null; code=$?; ls; exit $code");
-  EXPECT_EQ(o.code, 2) << o.err;
+  const Outcome o = shell(
+      "ulimit -f 1; " + std::string(kQuickAudit) + "--json report.json > /dev/null; code=$?; ls; exit $code",
+      2);
   EXPECT_TRUE(says(o.err, "FILE_CANNOT_WRITE"));
   EXPECT_EQ(o.out, "script.sh\n");
 }
@@ -234,8 +223,8 @@ TEST_F(Misfortune, AWitnessIsAWholeFolderOrNone) {
   const Outcome o = shell(
       "ulimit -f 1; limitcheck audit opensubdiv-far:precision=double fan:5 --depth 1 --level quick "
       "--witnesses w "
-      "> /dev/null; code=$?; ls -A w; exit $code");
-  EXPECT_EQ(o.code, 2) << o.err;
+      "> /dev/null; code=$?; ls -A w; exit $code",
+      2);
   EXPECT_EQ(o.out, "") << "nothing is left of the one that could not be written";
 }
 
@@ -314,8 +303,7 @@ TEST_F(Misfortune, AnExistingFileKeepsItsMode) {
 
 // Twenty moments; verify/kills.sh has more.
 TEST_F(Misfortune, WhatIsKilledAtAnyMomentEndsInTheSameReport) {
-  const Outcome o = command("bash '" LIMITCHECK_SOURCE "/verify/kills.sh' '" LIMITCHECK_PROGRAM "' 4");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+  const Outcome o = command("bash '" LIMITCHECK_SOURCE "/verify/kills.sh' '" LIMITCHECK_PROGRAM "' 4", 0);
 }
 
 TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
@@ -323,8 +311,8 @@ TEST_F(Misfortune, NamesMayHaveSpacesQuotesAndOtherAlphabets) {
       "mkdir 'Größe \"ñ\" 网格'; cd 'Größe \"ñ\" 网格'; limitcheck generate icosahedron -o \"a b'ü.obj\" && "
       "limitcheck audit opensubdiv-bfr \"a b'ü.obj\" --depth 1 --json 'r é.json' > table; test $? -le 1 && "
       "sed -n 's/^ *limitcheck eval/limitcheck eval/p' table > again.sh && test -s again.sh && "
-      "while read -r line; do eval \"$line\"; test $? = 1 || exit 3; done < again.sh");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
+      "while read -r line; do eval \"$line\"; test $? = 1 || exit 3; done < again.sh",
+      0);
 }
 
 // A built-in subject in this process, and the reference, look for no signal.

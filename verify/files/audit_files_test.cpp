@@ -50,8 +50,7 @@ TEST(AuditFiles, DuplicateVerticesDegenerateTrianglesAndMissingNormalsAreNoFault
   const FilesAudit a = audit(mesh, soup);
   EXPECT_EQ(findings(a), "");
   EXPECT_EQ(row(a, "file-normals").status, Status::kNotSupported);
-  FilesOptions strict;
-  strict.needs_normals = true;
+  FilesOptions strict{.needs_normals = true};
   EXPECT_EQ(findings(audit(mesh, soup, strict)), "file-normals");
 }
 
@@ -279,9 +278,7 @@ TEST(AuditFiles, SaysWhatACoarseFileDoesNotShow) {
 TEST(AuditFiles, SaysWhatItLooksLike) {
   const auto mesh = data::named_mesh("bumpy:200");
   const auto said = [&](const std::vector<Vector>& points) {
-    FileTessellation t;
-    t.name = "cloud";
-    t.positions = points;
+    FileTessellation t{.name = "cloud", .positions = points};
     t.used.assign(points.size(), true);
     return row(audit(mesh, t), "file-distance").message;
   };
@@ -309,9 +306,7 @@ const std::map<std::string, Writing> kWritings{
 
 // The points that some scheme makes, as a file without faces.
 FileTessellation cloud_of(std::vector<Vector> points, Writing writing) {
-  FileTessellation t;
-  t.name = "cloud";
-  t.positions = std::move(points);
+  FileTessellation t{.name = "cloud", .positions = std::move(points)};
   for (Vector& p : t.positions)
     for (double& x : p) x = writing(x);
   t.used.assign(t.positions.size(), true);
@@ -334,8 +329,7 @@ TEST(AuditFiles, VerticesThatAreWrongBesidesAreNotExplainedByWhatTheOthersAre) {
       if (!all && writing != "float") continue;
       if (writing == "four decimals" && c.mesh == std::string("holes")) continue;  // flat but for its rims
       const auto mesh = data::named_mesh(c.mesh);
-      FilesOptions quick;
-      quick.measures_hausdorff = false;
+      FilesOptions quick{.measures_hausdorff = false};
       const std::string name = std::string(c.mesh) + " in " + writing;
       FileTessellation t = cloud_of(scheme_points(mesh, c.scheme, c.steps, false), written);
       const FilesAudit right = audit(mesh, t, quick);
@@ -398,8 +392,7 @@ TEST(AuditFiles, AScaleAnOffsetAndATurnAreFittedAway) {
     p = {2.5 * p[0] + 1, 2.5 * p[2] - 3, -2.5 * p[1] + .25};  // y up instead of z up
   for (auto& n : t.normals) n.direction = {n.direction[0], n.direction[2], -n.direction[1]};
   EXPECT_TRUE(says(findings(audit(mesh, t)), "file-distance"));
-  FilesOptions options;
-  options.fit = Fit::kSimilarity;
+  FilesOptions options{.fit = Fit::kSimilarity};
   const FilesAudit a = audit(mesh, t, options);
   EXPECT_EQ(findings(a), "") << *row(a, "file-distance").worst;
   EXPECT_LE(*row(a, "file-distance").worst, 1e-7);

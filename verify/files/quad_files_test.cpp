@@ -7,7 +7,6 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
-#include "verify/files/read/test_quad_files.h"
 #include "verify/files/test_files.h"
 #include "verify/projection/test_meshes.h"
 #include "verify/recognise/guessed_rule.h"

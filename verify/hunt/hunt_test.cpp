@@ -112,8 +112,7 @@ TEST(LikelyCause, IsWhatProgramsCanTellApart) {
   const auto words = [](const char* name, std::int64_t face, std::vector<std::int32_t> depth = {}) {
     AuditMesh m{name, data::named_mesh(name)};
     m.face_depth = std::move(depth);
-    Result r;
-    r.scheme = m.scheme();
+    Result r{.scheme = m.scheme()};
     if (face >= 0) r.witness = Witness{face};
     return likely_cause(r, m).words();
   };
@@ -149,9 +148,7 @@ TEST(LikelyCause, CoversThoseThatHaveAllOfItAndMore) {
 TEST(LikelyCause, IsThatOfTheNearestExtraordinaryCorner) {
   const auto near = [](const char* name, std::int64_t face, const char* u, const char* v, int corner = -1) {
     const AuditMesh m{name, data::named_mesh(name)};
-    Result r;
-    r.scheme = m.scheme();
-    r.witness = Witness{face, u, v};
+    Result r{.scheme = m.scheme(), .witness = Witness{face, u, v}};
     r.witness->corner = corner;
     return likely_cause(r, m).words();
   };

@@ -38,8 +38,7 @@ TEST(Oracle, ItsCertificatesAgreeWithEachOther) {
 }
 
 TEST(Oracle, IsHuntedAsOthersAre) {
-  HuntReport report;
-  report.subject = "oracle";
+  HuntReport report{.subject = "oracle"};
   Hunt hunt({&oracle_subject(), ""}, plan(2), {1, 0, ""});
   for (std::uint64_t n = 0; n < 8; ++n) report.add(hunt.look(n).value());
   EXPECT_EQ(report.judged, 8);

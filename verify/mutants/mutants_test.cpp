@@ -71,11 +71,11 @@ TEST(Mutants, AreAllKilledByTheCheckMeantForThemAndNoCheckIsIdle) {
   EXPECT_EQ(fmt::format("{}", fmt::join(table.red_on_correct, "\n")), "");
 }
 
-std::string options_of(const Habit& habit) {
+std::string options_of(const std::string& habit) {
   // Rounded to float where it computes in double; else the fast engine.
-  if (habit.name == "rounded_double")
-    return unusual_options(habit.name, "sliding-window", "precision=double,repair=stitch");
-  return unusual_options(habit.name, "row-stream", "repair=stitch");
+  if (habit == "rounded_double")
+    return unusual_options(habit, "sliding-window", "precision=double,repair=stitch");
+  return unusual_options(habit, "row-stream", "repair=stitch");
 }
 
 // The cases of the default plan with no more triangles than that at the deepest level.
@@ -105,24 +105,32 @@ TEST(UnusualSubjects, AreTwentyAtLeast) {
 TEST(UnusualSubjects, AreNotBlamed) {
   std::vector<AuditSubject> subjects;
   for (const Habit& habit : habits())
-    if (!habit.of_the_process) subjects.push_back({lc_subject_unusual(), options_of(habit)});
+    if (!habit.of_the_process) subjects.push_back({lc_subject_unusual(), options_of(habit.name)});
   expect_no_finding(subjects, cases(2500));
 }
 
-TEST(UnusualSubjects, AreNotBlamedForWhatTheyDoToTheirProcess) {
-  IsolationSettings settings;
-  settings.worker = LIMITCHECK_PROGRAM;
-  const RemoteSubject remote(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
-  std::vector<AuditSubject> subjects;
+// Those that do something to their process, each in a worker of its own.
+std::vector<std::string> habits_of_the_process() {
+  std::vector<std::string> names;
   for (const Habit& habit : habits())
-    if (habit.of_the_process) subjects.push_back({&remote.subject(), options_of(habit)});
-  expect_no_finding(subjects, cases(600));
+    if (habit.of_the_process) names.push_back(habit.name);
+  return names;
 }
+
+class UnusualSubject : public testing::TestWithParam<std::string> {};
+
+TEST_P(UnusualSubject, IsNotBlamedForWhatItDoesToItsProcess) {
+  IsolationSettings settings{.worker = LIMITCHECK_PROGRAM};
+  const RemoteSubject remote(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
+  expect_no_finding({{&remote.subject(), options_of(GetParam())}}, cases(600));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfAHabit, UnusualSubject, testing::ValuesIn(habits_of_the_process()),
+                         [](const auto& of) { return of.param; });
 
 // Between other meshes, in a worker of its own, too.
 TEST(UnusualSubjects, KeepTheMeshThatTheyWereLentIfTheyLike) {
-  IsolationSettings settings;
-  settings.worker = LIMITCHECK_PROGRAM;
+  IsolationSettings settings{.worker = LIMITCHECK_PROGRAM};
   const RemoteSubject plain(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
   settings.in_turns = true;
   const RemoteSubject turns(RemoteSubject::Kind::kBuiltIn, "unusual", settings);

@@ -10,15 +10,11 @@ namespace limitcheck::cli {
 class InstalledTest : public CommandTest {
  protected:
   /// A command of the shell, in the test's own folder.
-  Outcome shell(const std::string& command) const {
-    const std::string all =
-        "cd '" + folder_.string() + "' && { " + command + " ; } > .stdout 2> .stderr < /dev/null";
-    const int status = std::system(all.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".stdout"), read(".stderr")};
+  Outcome shell(const std::string& words, std::optional<int> code = {}) const {
+    return command("{ " + words + " ; }", code);
   }
   void install() const {
-    const Outcome o = shell("'" LIMITCHECK_CMAKE "' --install '" LIMITCHECK_BINARY_DIR "' --prefix prefix");
-    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    shell("'" LIMITCHECK_CMAKE "' --install '" LIMITCHECK_BINARY_DIR "' --prefix prefix", 0);
   }
   /// Configures the project in `source` against the prefix.
   Outcome configure(const std::filesystem::path& source, const std::string& to,
@@ -28,10 +24,9 @@ class InstalledTest : public CommandTest {
   }
   void build(const std::filesystem::path& source, const std::string& to,
              const std::string& options = "") const {
-    Outcome o = configure(source, to, options);
+    const Outcome o = configure(source, to, options);
     ASSERT_EQ(o.code, 0) << o.out << o.err;
-    o = shell("'" LIMITCHECK_CMAKE "' --build " + to);
-    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    shell("'" LIMITCHECK_CMAKE "' --build " + to, 0);
   }
 };
 

@@ -48,8 +48,7 @@ class Completion : public InstalledTest {
                                "'\nCOMP_WORDS=('" LIMITCHECK_PROGRAM "' " + words +
                                ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_limitcheck\n"
                                "printf '%s\\n' \"${COMPREPLY[@]}\"\n");
-    const Outcome o = shell("bash -eu complete.bash");
-    EXPECT_EQ(o.code, 0) << o.err;
+    const Outcome o = shell("bash -eu complete.bash", 0);
     EXPECT_EQ(o.err, "");
     std::vector<std::string> list;
     std::istringstream in(o.out);

@@ -33,8 +33,7 @@ TEST_F(Package, FastNeedsNoCgalNoOpenSubdivNoOpenMeshNoFlint) {
 
   // An octahedron at depth 3: 8 x 4^3 triangles, by Euler half as many vertices and 2. Its corners' limit is
   // 24/55 of the way out (valence 4: 3 / (3 + 8 a(4)), a(4) = 31/64).
-  const Outcome o = shell("build/tessellate");
-  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome o = shell("build/tessellate", 0);
   EXPECT_TRUE(says(o.out, "uniform: 8 faces, 512 triangles, 258 vertices, 0 fans\n"));
   const std::size_t corner = o.out.find("corner: ");
   ASSERT_NE(corner, std::string::npos) << o.out;
@@ -62,8 +61,7 @@ TEST_F(Package, ThePathsOfTheFirstReleaseLeadToTheHeaders) {
         "limitcheck::reference::CertifiedEvaluator* certified;\n"
         "limitcheck::reference::StamEvaluator<double>* stam;\n"
         "limitcheck::reference::NaiveSubdivider<double>* naive;\n");
-  const Outcome o = shell("'" LIMITCHECK_CXX "' -std=c++20 -fsyntax-only -Iprefix/include first.cpp");
-  EXPECT_EQ(o.code, 0) << o.err;
+  const Outcome o = shell("'" LIMITCHECK_CXX "' -std=c++20 -fsyntax-only -Iprefix/include first.cpp", 0);
 }
 
 // data/known_answers.json, exact_tetrahedron: found by rational arithmetic outside this project.
@@ -72,8 +70,7 @@ TEST_F(Package, ReferenceGivesTheKnownAnswer) {
   build(kConsumers / "reference", "build",
         "-DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON -DCMAKE_DISABLE_FIND_PACKAGE_OpenSubdiv=ON "
         "-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON");
-  const Outcome o = shell("build/true_point");
-  ASSERT_EQ(o.code, 0) << o.err;
+  const Outcome o = shell("build/true_point", 0);
   EXPECT_TRUE(says(o.out,
                    "certified: 0.149691358024691358024691358025 0.149691358024691358024691358025 "
                    "-0.149691358024691358024691358025 "));
@@ -141,8 +138,7 @@ TEST_F(Components, AreAllThatCanBeHadWhereNoneIsNamed) {
 
 // As they come out of `cpack`; unpacked, not installed, so that the test needs no rights.
 TEST_F(DebianPackage, OfTheProgramRunsAndSaysItsLicence) {
-  const Outcome made = shell("cpack --config '" LIMITCHECK_BINARY_DIR "/CPackConfig.cmake' -B .");
-  ASSERT_EQ(made.code, 0) << made.out << made.err;
+  const Outcome made = shell("cpack --config '" LIMITCHECK_BINARY_DIR "/CPackConfig.cmake' -B .", 0);
   const std::string depends = shell("dpkg-deb -f limitcheck_*.deb Depends").out;
   for (const char* needed : {"libtbb12", "libosdcpu3.5.0", "libflint-arb2", "libc6"})
     EXPECT_TRUE(says(depends, needed));

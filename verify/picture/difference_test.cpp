@@ -214,11 +214,8 @@ TEST(Judge, TheMedianErrorOfUniformDepthFallsByFourWithEachLevel) {
 // Cracks are missing surface: what is drawn without repair looks worse than with it.
 TEST(Judge, SeesCracks) {
   const Judge judge(data::bumpy_sphere(60, 1), 5);
-  fast::DepthOptions random;
-  random.strategy = fast::Strategy::kRandom;
-  random.depth = 4;
-  fast::CrackOptions none;
-  none.repair = fast::Repair::kNone;
+  fast::DepthOptions random{.strategy = fast::Strategy::kRandom, .depth = 4};
+  fast::CrackOptions none{.repair = fast::Repair::kNone};
   EXPECT_GT(judge.see(random, none).difference.missing, judge.see(random).difference.missing);
 }
 

@@ -31,8 +31,7 @@ ProofSet standard_set() {
 }
 const ProofSet& full_set() {
   static const ProofSet set = [] {
-    ProofRequest request;
-    request.size = ProofSize::kFull;
+    ProofRequest request{.size = ProofSize::kFull};
     return proof_set(request);
   }();
   return set;
@@ -125,9 +124,7 @@ TEST(Proof_Set, HoldsEveryWayToTakeFacesAwayAroundTheRegularPair) {
 
 TEST(Proof_Set, OfASampleHasEveryTenthOfEachGroupAndArithmetic) {
   for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
-    ProofRequest request;
-    request.scheme = scheme;
-    request.valences = {3, 4, 5};
+    ProofRequest request{.scheme = scheme, .valences = {3, 4, 5}};
     std::map<std::pair<std::string, Arithmetic>, std::vector<std::string>> standard, sample;
     for (const ProofTask& task : proof_set(request).tasks)
       standard[{task.group, task.options.arithmetic}].push_back(task.neighbourhood.name);
@@ -168,9 +165,7 @@ TEST(Proof_Set, GoesToDepthSixWithEveryTopology) {
 }
 
 TEST(Proof_Set, IsReportedAsStoppedWhereItWas) {
-  ProofRequest request;
-  request.valences = {6};
-  request.depth = 0;
+  ProofRequest request{.valences = {6}, .depth = 0};
   ProofSet set = proof_set(request);
   set.tasks.resize(6);
   std::atomic<std::size_t> done = 0;  // it is asked by any thread whether to stop

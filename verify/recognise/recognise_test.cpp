@@ -72,9 +72,7 @@ TEST(Schemes, PointsKnowTheirPlaces) {
     ASSERT_LE(norm(points.position[k] - Vector{q.x, q.y, q.z}), 1e-14) << k;
   }
   // A flat face keeps points in place but for their distance from its edges: its middle stays the middle.
-  data::ControlMesh flat;
-  flat.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  flat.faces = {{0, 1, 2}};
+  data::ControlMesh flat{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .faces = {{0, 1, 2}}};
   const auto quads = placed_scheme_points(flat, GuessedRule::kCatmullClark, 1, false);
   std::size_t placed = 0;
   for (std::size_t k = 0; k < quads.place.size(); ++k) {
@@ -189,9 +187,8 @@ TEST(Recognise, APointThatIsWrongBesidesIsNotExplained) {
   EXPECT_EQ(row(right, "recognised").status, Status::kHeld) << row(right, "recognised").message;
   EXPECT_EQ(row(right, "recognised").bad, 0);
 
-  Report report;
-  report.subjects = {"claimed"};
-  report.results = audit(claimed_but_one<LC_POINTS_LIMIT>(), "", "bumpy:200", 3);
+  Report report{.subjects = {"claimed"},
+                .results = audit(claimed_but_one<LC_POINTS_LIMIT>(), "", "bumpy:200", 3)};
   const Result &positions = row(report.results, "positions"), &rest = row(report.results, "recognised");
   ASSERT_TRUE(positions.recognised);
   EXPECT_EQ(positions.recognised->scheme, "loop");

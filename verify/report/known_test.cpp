@@ -26,26 +26,24 @@ Report report() {
   r.subjects = {"mine", "mine:level=2"};
   for (const char* subject : {"mine", "mine:level=2"})
     for (const char* mesh : {"bumpy:60", "fan:4"}) {
-      Result row;
-      row.subject = subject;
-      row.mesh = mesh;
-      row.check = "positions";
-      row.status = Status::kFinding;
-      row.bad = 1;
-      row.of = 2;
-      row.worst = 1e-3;
+      Result row{.subject = subject,
+                 .mesh = mesh,
+                 .check = "positions",
+                 .status = Status::kFinding,
+                 .bad = 1,
+                 .of = 2,
+                 .worst = 1e-3};
       r.results.push_back(row);
     }
   return r;
 }
 
 Waiver waiver() {
-  Waiver w;
-  w.subject = "mine";
-  w.check = "positions";
-  w.shape = "bumpy:*";
-  w.reason = "known";
-  w.expires = "2027-01-31";
+  Waiver w{.subject = "mine",
+           .check = "positions",
+           .shape = "bumpy:*",
+           .reason = "known",
+           .expires = "2027-01-31"};
   return w;
 }
 
@@ -174,8 +172,7 @@ AuditMesh named(const std::string& name, int depth) {
 
 // A report of rows that judged positions, or could not.
 Report report_of(const CoverageQuestion& question, Status status) {
-  Report report;
-  report.subjects = {"s"};
+  Report report{.subjects = {"s"}};
   for (const CaseCells& c : question.cases) {
     Result r;
     r.subject = "s", r.check = "positions", r.scheme = c.scheme;

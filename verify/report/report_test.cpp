@@ -184,14 +184,9 @@ TEST(Status, WordsAreStable) {
 }
 
 TEST(Table, ShowsSeveralSubjectsSideBySide) {
-  Report r;
-  r.subjects = {"one", "two-with-a-long-name"};
+  Report r{.subjects = {"one", "two-with-a-long-name"}};
   const auto add = [&](const char* subject, const char* mesh, const char* check, Status status) {
-    Result result;
-    result.subject = subject;
-    result.mesh = mesh;
-    result.check = check;
-    result.status = status;
+    Result result{.subject = subject, .mesh = mesh, .check = check, .status = status};
     r.results.push_back(result);
   };
   add("one", "a", "positions", Status::kHeld);

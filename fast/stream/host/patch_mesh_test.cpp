@@ -137,8 +137,7 @@ TEST(PatchMesh, StaysAFreshFrameOnAnyWalk) {
 TEST(PatchMesh, KeepsPairsAndClosesCracksIfSticky) {
   const Model model = models()[0];
   StreamTessellator engine(model.mesh, options_of(model, Repair::kFan));
-  PatchOptions with;
-  with.sticky = true;
+  PatchOptions with{.sticky = true};
   PatchMesh<float> fresh(with);
   with.incremental = true;
   PatchMesh<float> patches(with);
@@ -195,8 +194,7 @@ TEST(PatchMesh, StaysInItsMemory) {
 TEST(PatchMesh, BeginsAnewForAnotherEngine) {
   const auto one = shaken(grid_torus(4, 5), .2, 2), two = shaken(grid_torus(4, 5), .2, 3);
   const auto quads = data::named_mesh("mixed:1");
-  TessellatorOptions catmull_clark;
-  catmull_clark.scheme = data::Scheme::kCatmullClark;
+  TessellatorOptions catmull_clark{.scheme = data::Scheme::kCatmullClark};
   StreamTessellator first(one), second(two), third(quads, catmull_clark);
   const PatchOptions with{.incremental = true};
   PatchMesh<float> patches(with);
@@ -267,8 +265,7 @@ TEST(PatchMesh, FollowsPointsThatMove) {
       ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
       stream.move_points(mesh.positions), window.move_points(mesh.positions);
       Camera camera;
-      DepthOptions strategy;
-      strategy.strategy = Strategy::kCombined;
+      DepthOptions strategy{.strategy = Strategy::kCombined};
       stream.frame(strategy, camera, patches);
       StreamTessellator(mesh, options).frame(strategy, camera, expected);
       ASSERT_EQ(soup_of(patches), soup_of(expected)) << frame;
@@ -321,8 +318,7 @@ void expect_compacted_vertices() {
         TessellatorOptions options = options_of(model, repair);
         options.provenance = incremental;
         Engine engine(model.mesh, options);
-        PatchOptions with;
-        with.incremental = incremental;
+        PatchOptions with{.incremental = incremental};
         PatchMesh<float> patches(with);
         with.compact = true;
         PatchMesh<float> packed(with);

@@ -116,8 +116,7 @@ TEST(RowStreamTargets, EachRunsTheCodeItNames) {
 
 TEST(LocalOrigins, BeginTheSoonerTheLowerATriangleIs) {
   const auto from = [](double height, double size = 1) {
-    data::ControlMesh mesh;
-    mesh.positions = {{0, 0, 0}, {size, 0, 0}, {size / 2, size * height, 0}};
+    data::ControlMesh mesh{.positions = {{0, 0, 0}, {size, 0, 0}, {size / 2, size * height, 0}}};
     mesh.faces.push_back({0, 1, 2});
     return place<float>(mesh).placement.local_from;
   };

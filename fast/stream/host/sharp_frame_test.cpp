@@ -208,8 +208,7 @@ TEST(SharpFrame, FollowsPointsThatMove) {
 TEST(SharpFrame, DepthsFollowTheView) {
   Tessellator<float> engine(data::with_open_crease(data::icosahedron(), 3), options(Repair::kFan));
   DepthOptions strategy;
-  Camera camera;
-  camera.eye = {9, 2, 3};
+  Camera camera{.eye = {9, 2, 3}};
   IndexedMesh<float> out;
   const FrameStats stats = engine.frame(strategy, camera, out);
   EXPECT_GT(stats.culled, 0);

@@ -15,7 +15,7 @@
 #include "data/error.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
-#include "fast/test_support/collecting_sink.h"
+#include "fast/test_support/exact_weld.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/tessellator.h"

@@ -27,8 +27,7 @@ const std::vector<std::string> kOpen{"holes", "sheet", "fan:5", "fan:1", "ragged
 FileTessellation delivered_by(const lc_subject& subject, const data::ControlMesh& mesh, int depth) {
   Session session(subject, mesh);
   const Tessellation t = session.tessellate(depth);
-  FileTessellation file;
-  file.name = subject.name;
+  FileTessellation file{.name = subject.name};
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) file.positions.push_back(t.position(v));
   for (const auto& corners : t.triangles())
     add_triangle(file, {static_cast<std::int32_t>(corners[0]), static_cast<std::int32_t>(corners[1]),
@@ -42,8 +41,7 @@ FileTessellation with_corners_kept(const data::ControlMesh& mesh, int steps, boo
   const auto refined =
       refined_by_opensubdiv(mesh, OpenSubdiv::Sdc::SCHEME_LOOP,
                             OpenSubdiv::Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER, steps, limit);
-  FileTessellation file;
-  file.positions = refined.points;
+  FileTessellation file{.positions = refined.points};
   file.used.assign(file.positions.size(), true);
   const OpenSubdiv::Far::TopologyLevel& last = refined.refiner->GetLevel(steps);
   for (int f = 0; f < last.GetNumFaces(); ++f) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the tests of meshes expect of all of them.
+// What the tests of meshes expect of all of them; and a mesh that programs write.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "data/validate.h"
@@ -63,6 +66,29 @@ inline std::map<std::size_t, int> sizes_of(const ControlMesh& mesh) {
   std::map<std::size_t, int> sizes;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) ++sizes[mesh.faces[f].size()];
   return sizes;
+}
+
+/// A sphere of `around` meridians as programs write it that leave sin(pi) at 1e-16: the faces at the poles
+/// that would have no area are left out, and the other pole is a row of vertices 1e-17 apart.
+inline ControlMesh sphere_with_residue(int around) {
+  const int rows = around / 2;
+  ControlMesh mesh;
+  const auto point = [&](int i, int j) {
+    const double t = std::numbers::pi * i / rows, p = 2 * std::numbers::pi * j / around;
+    return std::array{std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)};
+  };
+  mesh.positions.push_back(point(0, 0));
+  for (int i = 1; i <= rows; ++i)
+    for (int j = 0; j < around; ++j) mesh.positions.push_back(point(i, j));
+  const auto at = [&](int i, int j) {
+    return static_cast<std::int32_t>(i == 0 ? 0 : 1 + (i - 1) * around + j % around);
+  };
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < around; ++j) {
+      if (i > 0) mesh.faces.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
+      if (i < rows - 1) mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+    }
+  return mesh;
 }
 
 }  // namespace limitcheck::data

@@ -2,19 +2,15 @@
 // For the tests of fast/: meshes of quads with every valence and boundary that row streaming tells apart.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "data/generators/polygon_meshes.h"
-#include "data/splitmix64.h"
 #include "fast/test_support/quad_refinement.h"
 #include "fast/test_support/shared_points.h"
 
@@ -73,27 +69,6 @@ inline std::vector<NamedMesh> open_meshes() {
     meshes.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 5)});
   for (const int n : {1, 2, 3, 4, 5}) meshes.push_back({"fan " + std::to_string(n), data::quad_fan(n, 6)});
   return meshes;
-}
-
-/// Faces begin at another corner; they and the vertices have other numbers: `number` is the new one of each.
-inline data::ControlMesh renumbered_quads(const data::ControlMesh& mesh, std::uint64_t seed,
-                                          std::vector<std::int32_t>& number) {
-  data::SplitMix64 random(seed);
-  number.resize(mesh.positions.size());
-  std::iota(number.begin(), number.end(), 0);
-  for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[below(random, v)]);
-  data::ControlMesh out{mesh.positions, {}};
-  for (std::size_t v = 0; v < number.size(); ++v) out.positions[number[v]] = mesh.positions[v];
-  std::vector<std::array<std::int32_t, 4>> faces;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const std::size_t turn = below(random, 4);
-    std::array<std::int32_t, 4> q;
-    for (std::size_t k = 0; k < 4; ++k) q[k] = number[mesh.faces[f][(k + turn) % 4]];
-    faces.push_back(q);
-  }
-  for (std::size_t f = faces.size(); f > 1; --f) std::swap(faces[f - 1], faces[below(random, f)]);
-  for (const auto& q : faces) out.faces.push_back(q);
-  return out;
 }
 
 }  // namespace limitcheck::fast::row_stream

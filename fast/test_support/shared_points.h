@@ -38,13 +38,15 @@ inline data::ControlMesh renumbered(const data::ControlMesh& mesh, std::uint64_t
   for (std::size_t v = number.size(); v > 1; --v) std::swap(number[v - 1], number[below(random, v)]);
   data::ControlMesh out{mesh.positions, {}};
   for (std::size_t v = 0; v < number.size(); ++v) out.positions[number[v]] = mesh.positions[v];
-  std::vector<std::array<std::int32_t, 3>> triangles = triangles_of(mesh).to_vector();
-  for (auto& t : triangles) {
-    const std::size_t turn = below(random, 3);
-    t = {number[t[turn]], number[t[(turn + 1) % 3]], number[t[(turn + 2) % 3]]};
+  std::vector<std::vector<std::int32_t>> faces(mesh.faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto corners = mesh.faces[f];
+    const std::size_t turn = below(random, corners.size());
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      faces[f].push_back(number[corners[(k + turn) % corners.size()]]);
   }
-  for (std::size_t f = triangles.size(); f > 1; --f) std::swap(triangles[f - 1], triangles[below(random, f)]);
-  out.faces = data::Faces(triangles);
+  for (std::size_t f = faces.size(); f > 1; --f) std::swap(faces[f - 1], faces[below(random, f)]);
+  for (const auto& corners : faces) out.faces.push_back(corners);
   return out;
 }
 

@@ -19,6 +19,7 @@
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/catmull_clark/vertex_limit.h"
+#include "reference/loop/refine.h"
 #include "reference/number/number_exact.h"
 #include "reference/point/normal.h"
 
@@ -101,15 +102,6 @@ TEST(CatmullClark_RegularVertex, IsTheBicubicSpline) {
             ((c.edges[0] - c.edges[2]) * Rational(4) + c.faces[0] - c.faces[1] - c.faces[2] + c.faces[3]) *
                 Rational(1, 12));
   EXPECT_EQ(s.uv, (c.faces[0] - c.faces[1] + c.faces[2] - c.faces[3]) * Rational(1, 4));
-}
-
-template <class N>
-std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
-  std::vector<Vec3<N>> positions;
-  for (const auto& p : mesh.positions)
-    positions.push_back({NumberTraits<N>::from_double(p[0]), NumberTraits<N>::from_double(p[1]),
-                         NumberTraits<N>::from_double(p[2])});
-  return positions;
 }
 
 struct Case {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "data/splitmix64.h"
+#include "data/test_meshes.h"
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
@@ -39,29 +40,6 @@ data::ControlMesh wheel_of(const V& hub, const std::vector<V>& ring) {
   const auto n = static_cast<std::int32_t>(ring.size());
   for (const V& r : ring) mesh.positions.push_back({r.x, r.y, r.z});
   for (std::int32_t i = 0; i < n; ++i) mesh.faces.push_back({0, i + 1, (i + 1) % n + 1});
-  return mesh;
-}
-
-/// A sphere of `around` meridians as programs write it that leave sin(pi) at 1e-16: the faces at the poles
-/// that would have no area are left out, and the other pole is a row of vertices 1e-17 apart.
-data::ControlMesh sphere_with_residue(int around) {
-  const int rows = around / 2;
-  data::ControlMesh mesh;
-  const auto point = [&](int i, int j) {
-    const double t = std::numbers::pi * i / rows, p = 2 * std::numbers::pi * j / around;
-    return std::array{std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)};
-  };
-  mesh.positions.push_back(point(0, 0));
-  for (int i = 1; i <= rows; ++i)
-    for (int j = 0; j < around; ++j) mesh.positions.push_back(point(i, j));
-  const auto at = [&](int i, int j) {
-    return static_cast<std::int32_t>(i == 0 ? 0 : 1 + (i - 1) * around + j % around);
-  };
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < around; ++j) {
-      if (i > 0) mesh.faces.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
-      if (i < rows - 1) mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-    }
   return mesh;
 }
 
@@ -125,7 +103,7 @@ TEST(D12_VanishingTangents, InsideAFaceWhosePointsAgreeButForTheLastBitAreNotReg
 // With 16 and 30 meridians, at depths 0 and 3. The bound is what an audit allows a subject in double.
 TEST(D12_VanishingTangents, AtThePolesOfASphereBlameNobody) {
   for (const int around : {16, 30}) {
-    const data::ControlMesh mesh = sphere_with_residue(around);
+    const data::ControlMesh mesh = data::sphere_with_residue(around);
     const NaiveSubdivider<double> naive(mesh);
     const StamEvaluator<double> stam(mesh);
     std::size_t regular = 0, points = 0;

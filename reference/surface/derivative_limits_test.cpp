@@ -17,6 +17,7 @@
 #include "data/shapes.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
@@ -213,16 +214,13 @@ std::vector<Case> cases() {
     add("held 2 with a semi-sharp edge", Kind::kHeld, 2, with_tags(fan(2), {{1, 2}}, kEver));
   }
   for (const int n : {4, 5}) {
-    all.push_back({"Warren's " + std::to_string(n),
-                   Scheme::kLoop,
-                   Kind::kInside,
-                   n,
-                   uneven(data::wheel(n)),
-                   {{0, 0, 0}},
-                   Weights::kWarren});
-    const ControlMesh dart = uneven(with_tags(data::wheel(n), {{0, kEver}}));
-    all.push_back({"Warren's dart " + std::to_string(n), Scheme::kLoop, Kind::kDart, n, dart,
-                   around(dart, Scheme::kLoop, 0), Weights::kWarren});
+    const ControlMesh wheel = data::wheel(n);
+    for (const bool dart : {false, true}) {
+      const ControlMesh mesh = uneven(dart ? with_tags(wheel, {{0, kEver}}) : wheel);
+      all.push_back({"Warren's " + std::string(dart ? "dart " : "") + std::to_string(n), Scheme::kLoop,
+                     dart ? Kind::kDart : Kind::kInside, n, mesh, around(mesh, Scheme::kLoop, 0),
+                     Weights::kWarren});
+    }
   }
   // Faces of other than four corners: their vertices, middles, and middles of edges.
   for (const int n : {3, 5, 6}) {
@@ -259,15 +257,6 @@ std::vector<Case> cases() {
   return all;
 }
 
-template <class N>
-std::vector<Vec3<N>> positions_of(const ControlMesh& mesh) {
-  std::vector<Vec3<N>> result;
-  for (const auto& p : mesh.positions)
-    result.push_back({NumberTraits<N>::from_double(p[0]), NumberTraits<N>::from_double(p[1]),
-                      NumberTraits<N>::from_double(p[2])});
-  return result;
-}
-
 /// The parameters of the point (x, y) steps of 2^-halvings / 16 from a corner, x towards the next.
 std::array<Parameter, 2> near(const Case& c, int k, int x, int y, int halvings) {
   const Rational unit = Rational(1, Integer(16) << halvings), a = x * unit, b = y * unit;
@@ -291,9 +280,8 @@ class Evaluators {
  public:
   explicit Evaluators(const Case& c) {
     if (c.scheme == Scheme::kLoop) {
-      const auto triangles = data::Triangles(c.mesh.faces).to_vector();
-      loop_.emplace_back(positions_of<Big>(c.mesh), triangles, c.weights, c.mesh.sharpness);
-      loop_steps_.emplace_back(positions_of<Big>(c.mesh), triangles, c.weights, c.mesh.sharpness);
+      loop_.emplace_back(c.mesh, c.weights);
+      loop_steps_.emplace_back(c.mesh, c.weights);
     } else {
       quads_.emplace_back(c.mesh.faces, positions_of<Big>(c.mesh), c.mesh.sharpness);
       quad_steps_.emplace_back(c.mesh.faces, positions_of<Big>(c.mesh), c.mesh.sharpness);

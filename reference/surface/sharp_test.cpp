@@ -32,16 +32,9 @@ namespace {
 using data::ControlMesh;
 namespace cc = catmull_clark;
 
-template <class N>
-std::vector<Vec3<N>> positions(const ControlMesh& mesh) {
-  std::vector<Vec3<N>> result;
-  for (const auto& p : mesh.positions) result.push_back({N(p[0]), N(p[1]), N(p[2])});
-  return result;
-}
-
 using Exact = cc::SubdivisionEvaluator<Rational>;
 Exact exact(const ControlMesh& mesh) {
-  return Exact(mesh.faces, positions<Rational>(mesh), mesh.sharpness);
+  return Exact(mesh.faces, positions_of<Rational>(mesh), mesh.sharpness);
 }
 
 // Parameters in the faces, on edges and at corners.
@@ -109,7 +102,7 @@ TEST(SharpEdges, BetweenWholeSharpnessesTheSurfaceIsLinear) {
   const auto surface = [&](const char* sharpness) {
     SharpTags tags;
     for (const auto& e : mesh.sharpness.edges) tags.edges.push_back({e.a, e.b, Parameter::parse(sharpness)});
-    return Exact(mesh.faces, positions<Rational>(mesh), tags);
+    return Exact(mesh.faces, positions_of<Rational>(mesh), tags);
   };
   const Exact two = surface("2"), three = surface("3"), between = surface("23/10");
   for (const int f : {0, 5, 6})
@@ -184,8 +177,8 @@ TEST(SharpEdges, TheEvaluatorsOfCatmullClarkAgreeOnAnything) {
   double worst = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const ControlMesh mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
-    const cc::SubdivisionEvaluator<N> steps(mesh.faces, positions<N>(mesh), mesh.sharpness);
-    const cc::StamEvaluator<N> powers(mesh.faces, positions<N>(mesh), mesh.sharpness);
+    const cc::SubdivisionEvaluator<N> steps(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
+    const cc::StamEvaluator<N> powers(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
     const auto by = [](const auto& evaluator) {
       return [&evaluator](int face, int corner, const char* u, const char* v, bool) {
         return evaluator.evaluate(face, corner, Parameter::parse(u), Parameter::parse(v));
@@ -245,8 +238,8 @@ TEST(SharpEdges, TheNaiveRecursionHasTheSurfacesPoints) {
                         what + std::to_string(f));
         });
       const ControlMesh mixed = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 40}), seed);
-      const cc::NaiveSubdivider<N> quads(mixed.faces, positions<N>(mixed), mixed.sharpness);
-      const cc::StamEvaluator<N> quad_surface(mixed.faces, positions<N>(mixed), mixed.sharpness);
+      const cc::NaiveSubdivider<N> quads(mixed.faces, positions_of<N>(mixed), mixed.sharpness);
+      const cc::StamEvaluator<N> quad_surface(mixed.faces, positions_of<N>(mixed), mixed.sharpness);
       for (std::size_t f = 0; f < mixed.faces.size(); f += 3) {
         const bool is_quad = mixed.faces[f].size() == 4;
         if (!is_quad && depth == 0) continue;
@@ -273,8 +266,8 @@ TEST(SharpEdges, RefinedVerticesGoToTheSurface) {
   for (const ControlMesh& mesh :
        {data::dart(5, false), data::corner(3, false), data::creased_cube(2), data::crease_ring(3),
         data::with_random_sharpness(data::quad_wheel(6, 3), 4)}) {
-    cc::RefinedMesh<N> refined(mesh.faces, positions<N>(mesh), mesh.sharpness);
-    const cc::StamEvaluator<N> surface(mesh.faces, positions<N>(mesh), mesh.sharpness);
+    cc::RefinedMesh<N> refined(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
+    const cc::StamEvaluator<N> surface(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
     for (int depth = 0; depth < 3; ++depth, refined.refine()) {
       const auto limits = refined.limits();
       for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -317,7 +310,7 @@ TEST(SharpEdges, OfAllFacesAroundAVertexAskTheSameEdges) {
     triangles.faces.push_back({q[0], q[1], q[2]});
     triangles.faces.push_back({q[0], q[2], q[3]});
   }
-  const cc::SubdivisionEvaluator<N> of_quads(quads.faces, positions<N>(quads), quads.sharpness);
+  const cc::SubdivisionEvaluator<N> of_quads(quads.faces, positions_of<N>(quads), quads.sharpness);
   const SubdivisionEvaluator<N> of_triangles(triangles);
   const auto at_corner = [&](const ControlMesh& mesh, int f, int k) {
     const auto zero = Parameter(0), one = Parameter(1);

@@ -8,16 +8,14 @@
 #include <string>
 #include <utility>
 
-#include "data/generators/bumpy_sphere.h"
 #include "data/generators/named_mesh.h"
-#include "data/generators/polygon_meshes.h"
-#include "data/shapes.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/mutants/mutant_rules.h"
+#include "verify/projection/test_meshes.h"
 #include "verify/relations/relations.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
@@ -25,22 +23,7 @@
 namespace limitcheck::verify {
 namespace {
 
-struct Named {
-  std::string name;
-  data::ControlMesh mesh;
-};
-
-std::vector<Named> meshes() {
-  std::vector<Named> all{{"quad cube", data::quad_cube()}, {"quad torus", data::quad_torus(4, 3)}};
-  for (const int n : {3, 5, 6, 8, 12}) all.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 1)});
-  for (int k = 1; k <= 6; ++k) all.push_back({"fan " + std::to_string(k), data::quad_fan(k, 1)});
-  for (const int n : {3, 5, 7}) all.push_back({"prism " + std::to_string(n), data::polygon_prism(n)});
-  all.push_back({"triangles", data::octahedron()});
-  all.push_back({"dual", data::dual(data::bumpy_sphere(40, 1))});
-  return all;
-}
-
-AuditMesh audited(const Named& m) {
+AuditMesh audited(const test::TestMesh& m) {
   AuditMesh mesh{m.name, m.mesh};
   mesh.asked_scheme = data::Scheme::kCatmullClark;
   return mesh;
@@ -57,7 +40,7 @@ void expect_held(const std::vector<Result>& results, const std::string& what) {
 }
 
 TEST(CatmullClarkAudit, TheNaiveSubdividerHasNoFinding) {
-  for (const Named& m : meshes())
+  for (const test::TestMesh& m : test::quad_meshes())
     for (const int depth : {0, 1, 2, 3}) {
       const AuditMesh mesh = audited(m);
       Auditor auditor(depth, 1, {}, depth == 2 ? Level::kThorough : Level::kQuick);
@@ -67,10 +50,8 @@ TEST(CatmullClarkAudit, TheNaiveSubdividerHasNoFinding) {
 
 // At depth 0 a diagonal of a face may join the vertices of another edge.
 TEST(CatmullClarkAudit, ADiagonalBesideAnotherEdgeOfTheSameEndsIsNoFault) {
-  std::vector<Named> meshes;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5})
-    meshes.push_back({"mixed", data::named_mesh("mixed:" + std::to_string(seed) + ":40")});
-  for (const Named& m : meshes)
+  for (const test::TestMesh& m :
+       test::meshes_named({"mixed:1:40", "mixed:2:40", "mixed:3:40", "mixed:4:40", "mixed:5:40"}))
     for (const auto* subject : {lc_subject_naive(), lc_subject_quad_model(), lc_subject_cgal()})
       for (const Result& r : Auditor(0, 1).run({subject, ""}, audited(m)))
         EXPECT_TRUE(r.check != "watertight" || r.status == Status::kHeld)
@@ -78,7 +59,7 @@ TEST(CatmullClarkAudit, ADiagonalBesideAnotherEdgeOfTheSameEndsIsNoFault) {
 }
 
 TEST(CatmullClarkAudit, AStitchedTessellatorHasNoFindingAtUnequalDepths) {
-  for (const Named& m : meshes())
+  for (const test::TestMesh& m : test::quad_meshes())
     for (const std::uint64_t seed : {1, 2, 3})
       for (const int least : {-1, 0}) {
         AuditMesh mesh = audited(m);
@@ -91,7 +72,7 @@ TEST(CatmullClarkAudit, AStitchedTessellatorHasNoFindingAtUnequalDepths) {
 
 TEST(CatmullClarkAudit, EachMutantIsFoundByTheCheckMeantForIt) {
   std::vector<AuditMesh> cases;
-  for (const Named& m : meshes()) {
+  for (const test::TestMesh& m : test::quad_meshes()) {
     cases.push_back(audited(m));
     cases.back().depth = 2;
     AuditMesh unequal = audited(m);

@@ -15,6 +15,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/numeral.h"
 #include "data/shapes.h"
+#include "data/test_meshes.h"
 #include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/checks/checks.h"
@@ -230,30 +231,9 @@ data::ControlMesh in_a_plane() {
                                       {1, .5, 0}}});
 }
 
-/// A sphere without the faces at the poles that would have no area; sin(pi) is left at 1e-16, so that one
-/// pole is a row of vertices 1e-17 apart.
-data::ControlMesh sphere_with_residue() {
-  constexpr int around = 16, rows = 8;
-  data::ControlMesh mesh{{{0, 0, 1}}, {}};
-  for (int i = 1; i <= rows; ++i)
-    for (int j = 0; j < around; ++j) {
-      const double t = std::numbers::pi * i / rows, p = 2 * std::numbers::pi * j / around;
-      mesh.positions.push_back({std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)});
-    }
-  const auto at = [](int i, int j) {
-    return static_cast<std::int32_t>(i == 0 ? 0 : 1 + (i - 1) * around + j % around);
-  };
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < around; ++j) {
-      if (i > 0) mesh.faces.push_back({at(i, j + 1), at(i, j), at(i + 1, j + 1)});
-      if (i < rows - 1) mesh.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-    }
-  return mesh;
-}
-
 TEST(VanishingNormals, BlameNoSoundSubject) {
   const std::vector<std::pair<std::string, data::ControlMesh>> meshes{
-      {"tilted", tilted()}, {"in a plane", in_a_plane()}, {"sphere", sphere_with_residue()}};
+      {"tilted", tilted()}, {"in a plane", in_a_plane()}, {"sphere", data::sphere_with_residue(16)}};
   const std::vector<std::pair<const char*, const char*>> subjects{
       {"naive", ""}, {"sliding-window", "precision=double"}, {"sliding-window", ""}, {"row-stream", ""}};
   for (const auto& [name, mesh] : meshes) {

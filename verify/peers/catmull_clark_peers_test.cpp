@@ -17,6 +17,7 @@
 #include "data/generators/polygon_meshes.h"
 #include "reference/catmull_clark/naive.h"
 #include "reference/catmull_clark/refined_mesh.h"
+#include "reference/loop/refine.h"
 #include "reference/surface/surface.h"
 #include "verify/peers/opensubdiv_mesh.h"
 
@@ -26,12 +27,6 @@ namespace {
 using reference::Vec3;
 using Refined = reference::catmull_clark::RefinedMesh<double>;
 namespace Far = OpenSubdiv::Far;
-
-std::vector<Vec3<double>> positions_of(const data::ControlMesh& mesh) {
-  std::vector<Vec3<double>> positions;
-  for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
-  return positions;
-}
 
 double largest_of(const data::ControlMesh& mesh) {
   double largest = 0;
@@ -53,7 +48,7 @@ struct FarMesh {
     std::vector<OpenSubdivVector<double>> points;
     for (const auto& p : mesh.positions) points.push_back({p});
     const Far::PrimvarRefinerReal<double> primvars(*refiner);
-    Refined ours(mesh.faces, positions_of(mesh));
+    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
     std::vector<int> vertex(mesh.positions.size()), face(mesh.faces.size());  // Far's number of ours
     for (std::size_t i = 0; i < vertex.size(); ++i) vertex[i] = static_cast<int>(i);
     for (std::size_t i = 0; i < face.size(); ++i) face[i] = static_cast<int>(i);
@@ -109,7 +104,7 @@ TEST(CatmullClark_OpenSubdiv, HasTheSameRefinedAndLimitPoints) {
   double worst_refined = 0, worst_limit = 0, worst_normal = 0, worst_boundary = 0;
   for (const auto& [name, mesh] : meshes()) {
     const double unit = largest_of(mesh) * 0x1p-52;
-    Refined ours(mesh.faces, positions_of(mesh));
+    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
     for (int depth = 1; depth <= 3; ++depth) {
       ours.refine();
       const FarMesh far(mesh, depth);
@@ -142,10 +137,11 @@ TEST(CatmullClark_OpenSubdiv, OurTwoEvaluatorsAndFarAgreeToAFewUlp) {
   for (const auto& [name, mesh] : meshes()) {
     const double unit = largest_of(mesh) * 0x1p-52;
     const FarMesh far(mesh, kDepth);
-    Refined ours(mesh.faces, positions_of(mesh));
+    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
     for (int step = 0; step < kDepth; ++step) ours.refine();
     const reference::Surface stam(mesh, data::Scheme::kCatmullClark);
-    const reference::catmull_clark::NaiveSubdivider<double> naive(mesh.faces, positions_of(mesh));
+    const reference::catmull_clark::NaiveSubdivider<double> naive(mesh.faces,
+                                                                  reference::positions_of<double>(mesh));
     for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
       const bool quad = mesh.faces[face].size() == 4;
       const double steps = std::ldexp(1, quad ? kDepth : kDepth - 1);
@@ -193,7 +189,7 @@ TEST(CatmullClark_Cgal, HasTheSameRefinedPoints) {
       ASSERT_NE(theirs.add_face(corners), Mesh::null_face());
     }
     CGAL::Subdivision_method_3::CatmullClark_subdivision(theirs, CGAL::parameters::number_of_iterations(2));
-    Refined ours(mesh.faces, positions_of(mesh));
+    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
     ours.refine(), ours.refine();
     ASSERT_EQ(theirs.number_of_vertices(), ours.positions().size()) << name;
     const double unit = largest_of(mesh) * 0x1p-52;

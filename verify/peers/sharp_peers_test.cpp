@@ -39,9 +39,7 @@ Refined reference_of(const data::ControlMesh& mesh) {
   if constexpr (std::is_same_v<Refined, Triangles>) {
     return Triangles(mesh);
   } else {
-    std::vector<Vec3<double>> positions;
-    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
-    return Quads(mesh.faces, std::move(positions), mesh.sharpness);
+    return Quads(mesh.faces, reference::positions_of<double>(mesh), mesh.sharpness);
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "fast/stream/kernel/targets.h"
-#include "verify/shared_bits/test_support/evaluate.h"
+#include "verify/shared_bits/test_support/shared_bits.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -143,11 +143,11 @@ void add_quads_and_sides(const data::ControlMesh& mesh, int depth, const QuadKer
 }
 
 TEST(QuadStreamBits, AreEqualFromEveryQuadOfAClosedMesh) {
-  expect_all_bits(closed_meshes(), 6, 4, 3, quad_kernels(), renumbered_quads, add_quads_and_sides);
+  expect_all_bits(closed_meshes(), 6, 4, 3, quad_kernels(), renumbered, add_quads_and_sides);
 }
 
 TEST(QuadStreamBits, AreEqualFromEveryQuadOfAMeshWithBoundary) {
-  expect_all_bits(open_meshes(), 6, 4, 3, quad_kernels(), renumbered_quads, add_quads_and_sides);
+  expect_all_bits(open_meshes(), 6, 4, 3, quad_kernels(), renumbered, add_quads_and_sides);
 }
 
 // The two sides of a cut have a point each, in one place.

@@ -5,7 +5,7 @@
 
 #include "fast/stream/row_stream.h"
 #include "verify/host/host.h"
-#include "verify/shared_bits/test_support/evaluate.h"
+#include "verify/shared_bits/test_support/shared_bits.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

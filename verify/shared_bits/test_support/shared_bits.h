@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Whether every point that faces share has the same bits from each of them.                     [claim D14]
+// Whether every point that faces share has the same bits from each of them; and row streaming in all its forms, of a
+// control mesh written differently at random whose faces are paired at random.                        [claim D14]
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "fast/mesh/adjacency.h"
+#include "fast/plan/pairing.h"
+#include "fast/stream/kernel/targets.h"
 #include "verify/evidence/lattice.h"
+#include "verify/relations/variants.h"
 
 namespace limitcheck::verify {
 
@@ -71,5 +77,31 @@ class SharedBits {
   std::int64_t points_ = 0, compared_ = 0, different_ = 0, different_bits_ = 0;
   std::string witness_;
 };
+
+/// The positions as a float subject sees them.
+data::ControlMesh rounded(data::ControlMesh mesh);
+
+/// Vertices renumbered, faces reordered, their corners rotated, all at random. Seed 0: as it is.
+Rewriting rewrite(const data::ControlMesh& mesh, std::uint64_t seed);
+
+/// Every face is in one pair; its partner and its corner A are drawn at random. One face in `singles` stays
+/// without a partner though it has neighbours. All have one depth.
+std::vector<fast::Grid> random_pairs(const fast::Adjacency& adjacency, int depth, std::uint64_t seed,
+                                     std::uint64_t singles = 5);
+
+enum class Form { kRows, kWhole };
+
+/// Every pair at one depth, paired at random.
+void add_pairs(const Rewriting& mesh, int depth, const fast::row_stream::Kernel& kernel, Form form,
+               std::uint64_t seed, SharedBits& bits);
+
+/// Every half-edge by itself, in a random order, hence both ways.
+void add_edges(const Rewriting& mesh, int depth, const fast::row_stream::Kernel& kernel, std::uint64_t seed,
+               SharedBits& bits);
+
+/// A frame of the subject row-stream with these options, a depth for each of the original's faces.
+/// Points of edges go into the table of the edge's depth.
+void add_frame(const Rewriting& mesh, std::span<const std::int32_t> depth, const std::string& options,
+               int threads, SharedBits& bits);
 
 }  // namespace limitcheck::verify

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -41,7 +42,9 @@ void subdivide(const RingedFace<Vec3<N>>& face, int depth, const std::array<Latt
     LeafTriangle<N> leaf;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& c = face.corner[k];
-      const VertexLimit<N> limit = vertex_limit<N>(c.point, c.span(), c.on_boundary, weights, c.state);
+      const VertexLimit<N> limit = c.fan != nullptr
+                                       ? c.fan->after(c.steps).limit
+                                       : vertex_limit<N>(c.point, c.span(), c.on_boundary, weights, c.state);
       leaf[k] = {limit.position, limit.normal.direction, limit.normal.kind, lattice[k][0], lattice[k][1]};
     }
     emit(leaf);
@@ -92,7 +95,20 @@ template <class N>
 NaiveSubdivider<N>::NaiveSubdivider(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
                                     Weights weights, const SharpTags& tags)
     : mesh_(std::make_shared<const CutMesh<N>>(std::move(positions), data::Faces(triangles), tags)),
-      weights_(weights) {}
+      weights_(weights) {
+  auto fans = std::make_shared<std::map<std::int32_t, SteppedFan<Vec3<N>>>>();
+  for (std::int32_t v = 0; std::cmp_less(v, mesh_->topology.vertex_count()); ++v) {
+    const Sector sector = mesh_->topology.sector(v);
+    if (!sector.closed || sector.faces.size() < SteppedFan<Vec3<N>>::kMany ||
+        state_of(mesh_->states, v) != VertexState::kOrdinary)
+      continue;
+    std::vector<Vec3<N>> ring;
+    for (const std::int32_t r : sector.neighbours)
+      ring.push_back(mesh_->positions[static_cast<std::size_t>(r)]);
+    fans->try_emplace(v, mesh_->positions[static_cast<std::size_t>(v)], std::move(ring), weights);
+  }
+  fans_ = std::move(fans);
+}
 
 template <class N>
 std::size_t NaiveSubdivider<N>::face_count() const {
@@ -108,8 +124,12 @@ void NaiveSubdivider<N>::tessellate(std::size_t face, int depth,
   const std::array<detail::LatticePoint, 3> lattice{{{0, 0}, {size, 0}, {0, size}}};
   if (!mesh_->is_settled(face))
     return detail::subdivide_tagged<N>(mesh_->tagged->around(face), depth, lattice, weights_, emit);
-  detail::subdivide<N>(gather_triangle<N>(mesh_->topology, mesh_->positions, face, mesh_->states), depth,
-                       lattice, weights_, emit);
+  const auto fan_of = [this](std::int32_t v) {
+    const auto found = fans_->find(v);
+    return found == fans_->end() ? nullptr : &found->second;
+  };
+  detail::subdivide<N>(gather_triangle<N>(mesh_->topology, mesh_->positions, face, mesh_->states, fan_of),
+                       depth, lattice, weights_, emit);
 }
 
 template <class N>

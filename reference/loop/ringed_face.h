@@ -4,12 +4,19 @@
 
 #include <array>
 #include <boost/container/small_vector.hpp>
+#include <deque>
+#include <functional>
+#include <mutex>
 #include <span>
+#include <vector>
 
 #include "reference/loop/vertex_limit.h"
 #include "reference/mesh/topology.h"
 
 namespace limitcheck::reference {
+
+template <class Point>
+class SteppedFan;
 
 /// A corner with its ring, counter-clockwise, boundary neighbours first and last (masks.h). The face lies
 /// between ring entries `ring_index` and `ring_index` + 1 (cyclically when interior).
@@ -21,6 +28,9 @@ struct RingedCorner {
   int ring_index = 0;
   bool on_boundary = false;
   VertexState state = VertexState::kOrdinary;
+  const SteppedFan<Point>* fan =
+      nullptr;  ///< then the ring is neighbours -1 to 2 alone, after so many steps of it
+  int steps = 0, index_in_fan = 0;
 
   int size() const { return static_cast<int>(ring.size()); }
   /// Neighbour i steps counter-clockwise from the face's first edge; i may be negative.
@@ -32,6 +42,54 @@ struct RingedCorner {
   bool is_regular() const {
     return is_regular_vertex(ring.size() - (on_boundary ? 1 : 0), on_boundary, state);
   }
+};
+
+/// An interior vertex of many faces without tags, and its ring, after each step: worked out once for all faces, where
+/// each by itself would take as long as there are faces. Any number of threads may ask at once.
+template <class N>
+class SteppedFan<Vec3<N>> {
+ public:
+  static constexpr std::size_t kMany = 200;  ///< faces, for which this is worth its memory
+  struct Step {
+    Vec3<N> point;
+    std::vector<Vec3<N>> ring;
+    VertexLimit<N> limit;
+  };
+
+  SteppedFan(const Vec3<N>& point, std::vector<Vec3<N>> ring, Weights weights) : weights_(weights) {
+    add(point, std::move(ring));
+  }
+  const Step& after(int steps) const {
+    const std::scoped_lock lock(mutex_);
+    while (steps_.size() <= static_cast<std::size_t>(steps)) {
+      Vec3<N> point = steps_.back().point;
+      std::vector<Vec3<N>> ring = steps_.back().ring;
+      subdivide_ring(point, ring, false, weights_);
+      add(point, std::move(ring));
+    }
+    return steps_[static_cast<std::size_t>(steps)];
+  }
+  /// The corner of the face between ring entries `index` and `index` + 1.
+  RingedCorner<Vec3<N>> corner(int index, int steps) const {
+    const Step& step = after(steps);
+    const std::size_t n = step.ring.size(), at = static_cast<std::size_t>(index) + n;
+    RingedCorner<Vec3<N>> result;
+    result.point = step.point;
+    for (std::size_t i = at - 1; i < at + 3; ++i) result.ring.push_back(step.ring[i % n]);
+    result.ring_index = 1;
+    result.fan = this, result.steps = steps, result.index_in_fan = index;
+    return result;
+  }
+
+ private:
+  void add(const Vec3<N>& point, std::vector<Vec3<N>> ring) const {
+    const VertexLimit<N> limit = vertex_limit<N>(point, ring, false, weights_);
+    steps_.push_back({point, std::move(ring), limit});
+  }
+
+  Weights weights_;
+  mutable std::mutex mutex_;
+  mutable std::deque<Step> steps_;  // each stays where it is
 };
 
 template <class Point>
@@ -71,28 +129,37 @@ struct RingedFace {
 
 /// The face of a mesh of triangles with its neighbourhood; point(v) is that of a vertex.
 ///   states   of the vertices; later ones, and all where there are none, are ordinary
+///   fan_of   of a vertex; nullptr: the corner has all of its ring
 template <class Point, class PointOf>
 RingedFace<Point> gather_triangle(const Topology& topology, std::size_t face, PointOf&& point,
-                                  std::span<const VertexState> states = {}) {
+                                  std::span<const VertexState> states = {},
+                                  const std::function<const SteppedFan<Point>*(std::int32_t)>& fan_of = {}) {
   RingedFace<Point> result;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::int32_t v = topology.faces()[face][k];
     const Sector sector = topology.sector(v);
     auto& c = result.corner[k];
+    result.edge_on_boundary[k] = topology.edges()[topology.edge(face, k)].on_boundary();
+    if constexpr (requires { &SteppedFan<Point>::corner; })
+      if (const auto* fan = fan_of ? fan_of(v) : nullptr) {
+        c = fan->corner(topology.ring_index(face, k), 0);
+        continue;
+      }
     c.point = point(v);
     c.state = state_of(states, v);
     c.on_boundary = !sector.closed;
     c.ring_index = topology.ring_index(face, k);
     for (const std::int32_t r : sector.neighbours) c.ring.push_back(point(r));
-    result.edge_on_boundary[k] = topology.edges()[topology.edge(face, k)].on_boundary();
   }
   return result;
 }
 template <class N>
-RingedFace<Vec3<N>> gather_triangle(const Topology& topology, const std::vector<Vec3<N>>& positions,
-                                    std::size_t face, std::span<const VertexState> states = {}) {
+RingedFace<Vec3<N>> gather_triangle(
+    const Topology& topology, const std::vector<Vec3<N>>& positions, std::size_t face,
+    std::span<const VertexState> states = {},
+    const std::function<const SteppedFan<Vec3<N>>*(std::int32_t)>& fan_of = {}) {
   return gather_triangle<Vec3<N>>(
-      topology, face, [&](std::int32_t v) { return positions[static_cast<std::size_t>(v)]; }, states);
+      topology, face, [&](std::int32_t v) { return positions[static_cast<std::size_t>(v)]; }, states, fan_of);
 }
 
 /// A face's corners after one step, from which its four sub-faces are put together. Sub-face k < 3 sits at
@@ -105,6 +172,10 @@ class SubdividedFace {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& from = face.corner[k];
       auto& to = vertex_[k];
+      if (from.fan != nullptr) {
+        to = from.fan->corner(from.index_in_fan, from.steps + 1);
+        continue;
+      }
       to.ring_index = from.ring_index;
       to.on_boundary = from.on_boundary;
       to.state = from.state;

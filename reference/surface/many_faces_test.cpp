@@ -16,7 +16,10 @@
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/stam_impl.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/naive.h"
+#include "reference/loop/recursion_impl.h"
 #include "reference/loop/refine_impl.h"
+#include "reference/loop/ringed_face.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/stam_impl.h"
 #include "reference/loop/subdivision_evaluator.h"
@@ -204,6 +207,37 @@ TEST(ManyFaces, HaveTheSurfaceOfSubdivision) {
   }
 }
 
+/// Around a vertex of many faces the naive subdivider works out a ring once for all of them. Each by itself:
+void subdivide_alone(const RingedFace<Vec3<double>>& face, int depth, std::vector<Vec3<double>>& out) {
+  if (depth == 0) {
+    for (const auto& c : face.corner) {
+      const auto limit = vertex_limit<double>(c.point, c.span(), c.on_boundary);
+      out.insert(out.end(), {limit.position, limit.normal.direction});
+    }
+    return;
+  }
+  const SubdividedFace<double> next(face);
+  for (int k = 0; k < 4; ++k) subdivide_alone(next.subface(k), depth - 1, out);
+}
+
+TEST(ManyFaces, HaveTheBitsThatTheNaiveSubdividerGivesEachByItself) {
+  for (const data::ControlMesh& mesh : {data::bipyramid(300), data::wheel(250)}) {
+    const NaiveSubdivider<double> naive(mesh);
+    const Topology topology(mesh.positions.size(), mesh.faces);
+    for (std::size_t f = 0; f < naive.face_count(); f += 17) {
+      std::vector<Vec3<double>> alone, together;
+      subdivide_alone(gather_triangle<double>(topology, positions_of<double>(mesh), f), 3, alone);
+      naive.tessellate(f, 3, [&](const LeafTriangle<double>& leaf) {
+        for (const auto& c : leaf) together.insert(together.end(), {c.position, c.normal});
+      });
+      ASSERT_EQ(alone.size(), together.size());
+      for (std::size_t k = 0; k < alone.size(); ++k)
+        ASSERT_TRUE(alone[k].x == together[k].x && alone[k].y == together[k].y && alone[k].z == together[k].z)
+            << f << ' ' << k;
+    }
+  }
+}
+
 /// In double against a hundred digits, down to 1e-300 from the vertex.
 TEST(ManyFaces, LoseNoDigitsTowardsTheVertex) {
   using N = Decimal100;
@@ -245,6 +279,15 @@ TEST(ManyFacesOfLoop, CostNoMoreEachThanFewer) {
   expect_linear(triangles(250), triangles(1000), [](const ControlMesh& mesh) {
     return [e = std::make_shared<StamEvaluator<Counted>>(mesh)](int f, double a, double b) {
       (void)e->evaluate(f, a, b);
+    };
+  });
+}
+
+TEST(ManyFacesOfLoop, CostTheNaiveSubdividerNoMoreEachThanFewer) {
+  const auto wheel = [](int n) { return std::vector<Shape>{triangles(n)[0]}; };
+  expect_linear(wheel(250), wheel(1000), [](const ControlMesh& mesh) {
+    return [e = std::make_shared<NaiveSubdivider<Counted>>(mesh)](int f, double, double) {
+      e->tessellate(static_cast<std::size_t>(f), 1, [](const auto&) {});
     };
   });
 }

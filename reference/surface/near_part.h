@@ -16,12 +16,13 @@
 
 namespace limitcheck::reference {
 
-/// Face 0 is the face with the point; its surface there is that of the whole mesh, exactly.
+/// Face 0 is the face with the point, or the quad that it is in after a step; its surface there is that of the whole
+/// mesh, exactly, with the same parameters.
 struct NearPart {
   data::Faces faces;
   std::vector<std::array<Rational, 3>> positions;
   Valences valences;
-  int corner = 0;  ///< of face 0, as it was asked for
+  int corner = 0;  ///< of face 0
 };
 
 /// Around a vertex of n faces, and in the middle of a face of n corners, a point hears of those that are near, as many
@@ -31,7 +32,7 @@ struct NearPart {
 ///   position   of a vertex, in doubles
 ///   most       faces at a vertex, or corners of a face, of which nothing is left out
 ///   returns    nothing where the mesh has no such vertex near the face; where the point lies at it, which hears of all;
-///              where it is on the boundary, or the face touches others
+///              where it is on the boundary, or two faces of many corners touch
 std::optional<NearPart> near_part(const Topology& topology,
                                   const std::function<std::array<double, 3>(std::int32_t)>& position,
                                   data::Scheme scheme, int face, int corner, const Parameter& u,

@@ -82,8 +82,8 @@ void close(Session& session, Result& tessellates) {
   } catch (const std::bad_alloc&) {
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
-    tessellates.status = status_of(error);
-    tessellates.origin = origin_of(error);
+    const auto [status, origin] = breakdown_of(error);
+    tessellates.status = status, tessellates.origin = origin;
     tessellates.bad = 1;
     tessellates.message = fmt::format("at the end: {}", error.what());
   }
@@ -110,11 +110,12 @@ struct Auditor::Rows {
   }
   // The row `tessellates` of a subject that does not.
   void add_failure(const std::exception& error, const std::string& contradiction) const {
-    add("tessellates", contradiction.empty() ? status_of(error) : Status::kFinding,
+    const auto [status, origin] = breakdown_of(error);
+    add("tessellates", contradiction.empty() ? status : Status::kFinding,
         contradiction.empty() ? error.what() : fmt::format("{}; {}", error.what(), contradiction));
     results.back().of = 1;
     results.back().bad = is_bad(results.back());
-    results.back().origin = origin_of(error);
+    results.back().origin = origin;
   }
   // Not judged, for no fault of the subject.
   void add_lack(std::string_view check, const std::string& why) const {
@@ -207,8 +208,6 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     r.scheme = mesh.scheme();
     r.triangulated = mesh.triangulated;
     if (mesh.sample) r.sample = mesh.sample->text();
-    if (r.status == Status::kTimeout) r.origin = Origin::kLimit;
-    if ((r.status == Status::kCrash || r.status == Status::kError) && !r.origin) r.origin = Origin::kSubject;
   }
   return results;
 }

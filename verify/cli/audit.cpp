@@ -185,7 +185,13 @@ std::exception_ptr write_files(const Job& job, const Audited& audited, const std
     if (!a.output.junit.empty()) verify::write_text(a.output.junit, verify::to_junit(report));
     if (shard)
       write_part(a.shard, *journal,
-                 {{}, {}, report.seconds, report.containment, report.printed, report.incomplete});
+                 {{},
+                  {},
+                  report.seconds,
+                  report.containment,
+                  report.printed,
+                  report.incomplete,
+                  verify::receipts_json(report.receipts)});
     else if (!a.shard.json.empty() && a.shard.json != "-")
       verify::write_text(a.shard.json, json);
     if (job.whole && !shard) {
@@ -239,6 +245,12 @@ int audit(const Job& job) {
   const auto journal = keeps ? open_journal(kept, plan, false) : nullptr;
   if (journal != nullptr && kept.resume)  // as it is written: other bytes than those of UTF-8 are not
     require_units(data::parse_untrusted(dumped(plan.what, -1)), journal->results());
+  const auto receipts = [&loader, before = journal ? journal->receipts_before() : nlohmann::json()] {
+    std::vector<verify::Receipt> all = verify::receipts_of(before);
+    for (const verify::Receipt& r : loader.receipts()) add(all, r);
+    return all;
+  };
+  if (journal != nullptr) journal->attach([&] { return verify::receipts_json(receipts()); });
   try {
     report.results = a.must_refuse ? verify::must_refuse(audited, meshes, a.threads)
                                    : auditor.run(audited, meshes, journal.get());
@@ -249,6 +261,7 @@ int audit(const Job& job) {
   }
   const auto finish = [&] {
     report.containment = loader.containment();
+    report.receipts = receipts();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.printed = output.take();
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;

@@ -254,9 +254,8 @@ std::string nothing_looked_at(bool polygons) {
 
 int exit_code_of(const verify::Report& report, bool judged) {
   if (!report.looked()) return kBadInput;
-  const bool by_host = std::any_of(report.results.begin(), report.results.end(),
-                                   [](const auto& r) { return r.origin == verify::Origin::kHost; });
-  if ((!judged || by_host) && std::none_of(report.results.begin(), report.results.end(), verify::is_bad))
+  if ((!judged || !report.host_sufficed()) &&
+      std::none_of(report.results.begin(), report.results.end(), verify::is_bad))
     return kBadInput;
   return report.held() ? kHeld : kFindings;
 }

@@ -193,6 +193,55 @@ TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
                    "unit 2, naive on cube: the row tessellates is of naive on octahedron"));
 }
 
+TEST_F(Merge, ReceiptsOfPartsAddUpAndMayBeMissing) {
+  const std::string all = "audit naive octahedron tetrahedron cube --isolate --depth 1 --level quick ";
+  EXPECT_EQ(in_parts(all, 2).code, 0);
+  const auto receipt = [&](const char* file) { return json_in(file)["receipts"].at(0); };
+  json parts[2];
+  for (int k = 0; k < 2; ++k) {
+    json part = json_in(k == 0 ? "part1.json" : "part2.json");
+    parts[k] = part["receipts"].at(0);
+    part.erase("receipts"), part.erase("digest");
+    write("old" + std::to_string(k) + ".json", verify::sealed(part));
+  }
+  // Fields of a receipt in a part, in order: subject, processes, most_at_once, peak_bytes, ...
+  EXPECT_EQ(receipt("merged.json")["subject"], "naive");
+  EXPECT_EQ(receipt("merged.json")["processes"], parts[0][1].get<int>() + parts[1][1].get<int>());
+  EXPECT_GE(receipt("merged.json")["processes"], 3);
+  EXPECT_EQ(receipt("merged.json")["peak_bytes"], std::max(parts[0][3], parts[1][3]));
+  EXPECT_EQ(run("merge old0.json old1.json -o merged.json").code, 0) << "of an earlier version";
+  EXPECT_EQ(json_in("merged.json")["receipts"], json::array());
+  json part = json_in("part1.json");
+  part["receipts"][0][1] = -1, part.erase("digest");
+  write("old0.json", verify::sealed(part));
+  EXPECT_EQ(run("merge old0.json old1.json -o merged.json").code, 2);
+}
+
+TEST_F(Merge, AReceiptOutlivesAKill) {
+  const std::string all =
+      "audit naive octahedron tetrahedron bumpy:4000 --isolate --depth 5 --level quick --json r.json ";
+  (void)signalled(all, "[ \"$(wc -l < r.jsonl)\" = 3 ]", "KILL");
+  std::istringstream lines(read("r.jsonl"));
+  std::string line, old;
+  int before = 0;
+  while (std::getline(lines, line)) {
+    json record = json::parse(line);
+    if (record.contains("receipts")) before = record["receipts"].at(0)[1];
+    record.erase("receipts"), record.erase("digest");
+    old += record.contains("unit") ? verify::sealed(record) : line + "\n";
+  }
+  const std::string journal = read("r.jsonl");
+  const auto resumed = [&](const std::string& text) {
+    std::filesystem::remove(folder_ / "r.json");
+    write("r.jsonl", text);
+    EXPECT_EQ(run(all + "--resume").code, 0);
+    return json_in("r.json")["receipts"].at(0)["processes"].get<int>();
+  };
+  const int without = resumed(old);
+  EXPECT_GE(before, 2);
+  EXPECT_EQ(resumed(journal), before + without);
+}
+
 TEST_F(Merge, AResultOfAMutantIsNoneOfRightSubjects) {
   for (const char* shard : {"1/2", "2/2"}) {  // nothing is audited: results are as easily written as read
     json part{{"program", "limitcheck mutants"},

@@ -268,6 +268,53 @@ TEST_F(Misfortune, WhatTheSystemLacksIsNotJudgedAndNoFaultOfTheSubject) {
   }
 }
 
+// A subject that crashes where it may have met a limit of the system, and one that crashes where it has enough.
+TEST_F(Misfortune, ABreakdownUnderTightLimitsIsNotJudged) {
+  write("dies.sh", kTellsWhatItCan + "kill -SEGV $$\n");
+  for (const auto& [limit, words] : {std::pair{"--nofile=63", "the system allows 63 open files"},
+                                     {"--nproc=63", "the system allows 63 processes"},
+                                     {"--as=3000000000", "the system allows 3000000000 bytes of addresses"},
+                                     {"--data=3000000000", "the system allows 3000000000 bytes of data"},
+                                     {"--nofile=64", ""}}) {
+    const Outcome o = shell("prlimit " + std::string(limit) +
+                            " '" LIMITCHECK_PROGRAM
+                            "' audit --program 'bash dies.sh' tetrahedron --depth 1 --level quick --json -");
+    const bool judged = *words == '\0';
+    EXPECT_EQ(o.code, judged ? 1 : 2) << limit << o.out << o.err;
+    const auto report = nlohmann::json::parse(o.out, nullptr, false);
+    ASSERT_FALSE(report.is_discarded()) << o.out << o.err;
+    const auto& row = report["results"][0];
+    EXPECT_EQ(row["origin"], judged ? "subject" : "host") << limit << row;
+    EXPECT_EQ(row["status"], judged ? "crash" : "not-run") << limit << row;
+    EXPECT_EQ(report["held"], false);
+    if (!judged) {
+      EXPECT_TRUE(says(row["message"].get<std::string>(), words));
+    }
+  }
+}
+
+TEST_F(Misfortune, AFullDiskLeavesWhatWasThereAndNoHalfFile) {
+  ASSERT_EQ(run("generate bumpy:2000 -o m.obj").code, 0);
+  for (const std::string command :
+       {"generate bumpy:2000 -o disk/out.obj", "generate bumpy:2000 -o disk/out.ply",
+        "repair m.obj -o disk/out.obj", "tessellate bumpy:800 -o disk/out.glb",
+        "audit naive cube --depth 1 --level quick --json disk/out.json",
+        "audit naive cube --depth 1 --level quick --junit disk/out.json",
+        "audit naive cube --depth 1 --level quick --html disk/out.json",
+        "audit naive cube --depth 1 --level quick --shard 1/2 --json disk/out.json",
+        "prove --depth 0 --valences 3 --json disk/out.json"}) {
+    const Outcome o = shell(
+        "unshare -Urm bash -c 'mkdir -p disk; mount -t tmpfs -o size=1m none disk || exit 77; "
+        "for e in obj ply glb json; do echo old > disk/out.$e; done; "
+        "cat /dev/zero > disk/fill 2> log; \"$0\" " +
+        command + " > log; code=$?; ls -A disk; cat disk/out.*; exit $code' '" LIMITCHECK_PROGRAM "'");
+    if (o.code == 77) GTEST_SKIP() << o.err;
+    EXPECT_EQ(o.code, 2) << command << o.out << o.err;
+    EXPECT_TRUE(says(o.err, "FILE_CANNOT_WRITE")) << command;
+    EXPECT_EQ(o.out, "fill\nout.glb\nout.json\nout.obj\nout.ply\nold\nold\nold\nold\n") << command;
+  }
+}
+
 TEST_F(Misfortune, ASystemWithoutNamespacesHoldsProcessesByASubreaper) {
   const Outcome o = shell(
       "unshare -Ur bash -c 'echo 0 > /proc/sys/user/max_pid_namespaces && "

@@ -148,6 +148,13 @@ std::string SubjectLoader::containment() const {
   return "";
 }
 
+std::vector<verify::Receipt> SubjectLoader::receipts() const {
+  std::vector<verify::Receipt> all;
+  for (const auto& remote : remote_)
+    if (remote->receipt().processes > 0) add(all, remote->receipt());
+  return all;
+}
+
 verify::AuditSubject SubjectLoader::open(const std::string& text, const std::vector<std::string>& options) {
   verify::AuditSubject opened = open(text);
   for (const std::string& o : options) opened.options += (opened.options.empty() ? "" : ",") + o;

@@ -49,6 +49,8 @@ class SubjectLoader {
 
   /// How the processes of the subjects were held, in words; empty if there were none.
   std::string containment() const;
+  /// What these processes took; of each subject that had any.
+  std::vector<verify::Receipt> receipts() const;
 
  private:
   const lc_subject* remote(verify::RemoteSubject::Kind kind, const std::string& what, bool in_turns = false);

@@ -86,8 +86,8 @@ void add_json_option(CLI::App& command, ShardArguments& a) {
 void add_shard_options(CLI::App& command, ShardArguments& a, const std::string& units) {
   command
       .add_option("--shard", a.shard,
-                  fmt::format("Only part K of N: every N-th of the {}. --json FILE then has the part, and "
-                              "limitcheck merge makes the report of all parts",
+                  fmt::format("Only part K of N: every N-th of the {}. Needs --json FILE, which then has the "
+                              "part; limitcheck merge makes the report of all parts",
                               units))
       ->type_name("K/N")
       ->capture_default_str();

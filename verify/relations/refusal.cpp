@@ -80,13 +80,14 @@ Refusal ask_for_refusal(const AuditSubject& subject, const data::ControlMesh& me
     if (mesh.faces.empty() && t.triangle_count() == 0) return {};  // nothing of nothing
     return {true, Status::kFinding, "accepted"};
   } catch (const SubjectDied& error) {
-    return {true, status_of(error), error.what()};
+    const auto [status, origin] = breakdown_of(error);
+    return {true, status, error.what(), origin};
   } catch (const NotAsked& why) {
     return {true, Status::kNotSupported, fmt::format("not asked: {}", why.what())};
   } catch (const SubjectError&) {
     return {};
   } catch (const std::exception& error) {
-    return {true, Status::kError, error.what()};
+    return {true, Status::kError, error.what(), Origin::kSubject};
   }
 }
 
@@ -133,6 +134,7 @@ std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
       r.triangulated = m.triangulated;
       r.check = "rejected-inputs";
       r.status = refusal.status;
+      r.origin = refusal.origin;
       r.unit = "meshes";
       r.of = 1;
       r.bad = is_bad(r);

@@ -2,6 +2,7 @@
 // Meshes on which the scheme is not defined: a subject must refuse them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct Refusal {
   bool asked = true;  // false: the mesh has tags of a kind that the subject does not declare
   Status status = Status::kHeld;
   std::string message;
+  std::optional<Origin> origin = {};  // of a breakdown
 };
 
 /// What a subject that declares `sharp`, LC_SHARP_..., made of each of broken_meshes().

@@ -193,21 +193,22 @@ bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std
           same_bits(v.normal(t.normal(k)), e_.tessellation.normal(mine)));
 }
 
-Status status_of(const std::exception& error) {
+Breakdown breakdown_of(const std::exception& error) {
   if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) {
-    if (died->kind() == SubjectDied::Kind::kTimeout) return Status::kTimeout;
-    return died->kind() == SubjectDied::Kind::kProtocol ? Status::kFinding : Status::kCrash;
+    switch (died->kind()) {
+      case SubjectDied::Kind::kTimeout:
+        return {Status::kTimeout, Origin::kLimit};
+      case SubjectDied::Kind::kMemory:
+        return {Status::kCrash, Origin::kLimit};
+      case SubjectDied::Kind::kProtocol:
+        return {Status::kFinding, Origin::kSubject};
+      case SubjectDied::Kind::kCrash:
+        return {Status::kCrash, Origin::kSubject};
+    }
   }
   const auto* refusal = dynamic_cast<const SubjectError*>(&error);
-  if (refusal == nullptr || refusal->status() == LC_FAILED) return Status::kError;
-  return refusal->status() == LC_NOT_SUPPORTED ? Status::kNotSupported : Status::kFinding;
-}
-
-Origin origin_of(const std::exception& error) {
-  const auto* died = dynamic_cast<const SubjectDied*>(&error);
-  const bool limit = died != nullptr && (died->kind() == SubjectDied::Kind::kTimeout ||
-                                         died->kind() == SubjectDied::Kind::kMemory);
-  return limit ? Origin::kLimit : Origin::kSubject;
+  if (refusal == nullptr || refusal->status() == LC_FAILED) return {Status::kError, Origin::kSubject};
+  return {refusal->status() == LC_NOT_SUPPORTED ? Status::kNotSupported : Status::kFinding, Origin::kSubject};
 }
 
 RelationRow::RelationRow(const AuditSubject& subject, const Evidence& e, std::string_view name,
@@ -228,10 +229,9 @@ void RelationRow::ask(const AuditSubject& subject, const std::string& what, cons
   } catch (const std::bad_alloc&) {
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
-    const Status status = status_of(error);
+    const auto [status, origin] = breakdown_of(error);
     if (status != Status::kNotSupported) ++r_.bad;
-    if (gravity(status) > gravity(r_.status)) r_.origin = origin_of(error);
-    note(status, fmt::format("{}: {}", what, error.what()));
+    note(status, fmt::format("{}: {}", what, error.what()), origin);
   }
 }
 
@@ -260,8 +260,8 @@ void RelationRow::judge(const std::string& what, const Comparison& c, bool bits_
     note(Status::kQualityWarning, "");
 }
 
-void RelationRow::note(Status status, const std::string& message) {
-  if (gravity(status) > gravity(r_.status)) r_.status = status;
+void RelationRow::note(Status status, const std::string& message, std::optional<Origin> origin) {
+  if (gravity(status) > gravity(r_.status)) r_.status = status, r_.origin = origin;
   if (message.empty() || r_.message.find(message) != std::string::npos) return;
   r_.message += (r_.message.empty() ? "" : " / ") + message;
 }

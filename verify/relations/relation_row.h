@@ -62,12 +62,15 @@ class Compared {
   std::unordered_set<Lattice::Id> not_finite_;  // points
 };
 
-/// The status of a row in which a request ended with this error: kNotSupported for LC_NOT_SUPPORTED, kFinding
-/// for LC_INVALID_INPUT (the mesh was valid) and for an answer that breaks the protocol, kCrash or kTimeout
-/// for a process that ended or hung, otherwise kError.
-Status status_of(const std::exception& error);
-/// kLimit of what took too long or too much, otherwise kSubject.
-Origin origin_of(const std::exception& error);
+/// What a request came to that ended with an error.
+///   status   kNotSupported for LC_NOT_SUPPORTED, kFinding for LC_INVALID_INPUT (the mesh was valid) and for an answer
+///            that breaks the protocol, kCrash or kTimeout for a process that ended or hung, otherwise kError
+///   origin   kLimit of what took too long or too much, otherwise kSubject
+struct Breakdown {
+  Status status;
+  Origin origin;
+};
+Breakdown breakdown_of(const std::exception& error);
 
 /// All requests are made, also after one has failed. The row has the worst status of them all, and its
 /// message says what went wrong in each.
@@ -96,7 +99,8 @@ class RelationRow {
     r_.bad += bad;
     r_.of += of;
   }
-  void note(Status status, const std::string& message);
+  ///   origin   of a breakdown
+  void note(Status status, const std::string& message, std::optional<Origin> origin = {});
   /// What was taken that should have been refused.
   void accepted(const std::string& what) { r_.accepted.push_back(what); }
   /// Sets the witness if there is none yet.

@@ -193,9 +193,9 @@ class Relations {
       if (!refusal.asked) continue;
       row.count(refusal.status != Status::kHeld, 1);
       if (refusal.status == Status::kFinding) row.accepted(broken_meshes()[k].what);
-      row.note(refusal.status, refusal.message.empty()
-                                   ? ""
-                                   : fmt::format("{}: {}", broken_meshes()[k].what, refusal.message));
+      row.note(refusal.status,
+               refusal.message.empty() ? "" : fmt::format("{}: {}", broken_meshes()[k].what, refusal.message),
+               refusal.origin);
     }
     return row.take();
   }

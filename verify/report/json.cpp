@@ -68,6 +68,14 @@ void visit_fields(Is<Report::Mesh> auto& row, Visit&& visit) {
              faces, diagonal, scheme, triangulated);
 }
 template <class Visit>
+void visit_fields(Is<Receipt> auto& row, Visit&& visit) {
+  auto& [subject, processes, at_once, bytes, shared, crashes, time, memory, protocol] = row;
+  visit_each(visit,
+             {"subject", "processes", "most_at_once", "peak_bytes", "peak_shared", "crashes", "over_time",
+              "over_memory", "broke_protocol"},
+             subject, processes, at_once, bytes, shared, crashes, time, memory, protocol);
+}
+template <class Visit>
 void visit_fields(Is<Result> auto& row, Visit&& visit) {
   auto& [subject, mesh, check, depth, depths, sample, precision, scheme, cut, weights, status, bad, of, worst,
          bound, rms, p99, unit, absolute, ulps, ill, witness, message, accepted, not_finite, waiver, places,
@@ -280,10 +288,12 @@ std::string to_json(const Report& report, const std::string& level) {
               {"seconds", report.seconds},
               {"held", report.held()},
               {"containment", shown(report.containment)},
+              {"receipts", Ordered::array()},
               {"incomplete", shown(report.incomplete)},
               {"printed", shown(report.printed)},
               {"changes", changes(report)},
               {"never_judged", Ordered::array()}};
+  for (const Receipt& r : report.receipts) out["receipts"].push_back(shown(r));
   for (const Unjudged& none : unjudged(report))
     out["never_judged"].push_back(
         {{"subject", none.subject}, {"check", none.check}, {"reason", shown(none.reason)}});
@@ -336,6 +346,25 @@ std::vector<Result> rows_of(const Json& json) {
   std::vector<Result> rows;
   for (const Json& row : json) rows.push_back(reported_row(row));
   return rows;
+}
+
+Json receipts_json(const std::vector<Receipt>& receipts) {
+  return kept(receipts);
+}
+
+std::vector<Receipt> receipts_of(const Json& json) {
+  std::vector<Receipt> all;
+  for (const Json& one : json) {
+    Receipt receipt;
+    read(one, receipt);
+    visit_fields(receipt, [](const char* name, const auto& count) {
+      if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(count)>>)
+        if (count < 0 || count > std::int64_t{1} << 50)
+          throw data::ArgumentError(fmt::format("a receipt of {} {}", count, name));
+    });
+    add(all, receipt);
+  }
+  return all;
 }
 
 Json header_json(const Report& report) {

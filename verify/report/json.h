@@ -11,8 +11,8 @@
 
 namespace limitcheck::verify {
 
-/// The report as one JSON document. Keys of the header: program, version, depth, seconds, held, never_judged,
-/// subjects, meshes (name with the generator's seed, vertices, faces). `results`: subject, mesh, depth,
+/// The report as one JSON document. Keys of the header: program, version, depth, seconds, held, receipts (what
+/// subjects in processes of their own took), never_judged, subjects, meshes (name with the generator's seed, vertices, faces). `results`: subject, mesh, depth,
 /// depths, sample, check, status, count (how many are wrong), of (of how many), worst, bound, unit, rms, p99,
 /// worst_absolute, worst_ulps, message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got,
 /// expected_digits, command, reproduce) - null where it does not apply. The schema:
@@ -26,6 +26,10 @@ Result reported_row(const nlohmann::json& row);
 /// Rows to go on with and to merge: nothing is lost. Reading throws as reported_row().
 nlohmann::json rows_json(const std::vector<Result>& rows);
 std::vector<Result> rows_of(const nlohmann::json& json);
+/// The receipts of subjects, and of several lists one after another those of the whole, one for each subject. Reading
+/// also throws data::ArgumentError: a number is below 0 or absurd.
+nlohmann::json receipts_json(const std::vector<Receipt>& receipts);
+std::vector<Receipt> receipts_of(const nlohmann::json& json);
 /// What a report says before its first row: version, depths, meshes, subjects.
 nlohmann::json header_json(const Report& report);
 Report header_of(const nlohmann::json& json);

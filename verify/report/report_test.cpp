@@ -202,5 +202,17 @@ TEST(Table, ShowsSeveralSubjectsSideBySide) {
   EXPECT_FALSE(says(to_table(r, false), "  check                     one "));
 }
 
+// As a merged one may be: its parts say of a row that it is the host's, and nothing else is wrong.
+TEST(AReport, DoesNotHoldWhereTheHostLackedSomething) {
+  Report report;
+  report.results.resize(2);
+  report.results[0].status = Status::kHeld;
+  EXPECT_TRUE(report.held());
+  report.results[1].origin = Origin::kHost;
+  EXPECT_FALSE(report.held());
+  report.changes.emplace();
+  EXPECT_FALSE(report.held()) << "nor against a baseline";
+}
+
 }  // namespace
 }  // namespace limitcheck::verify

@@ -14,6 +14,7 @@
 
 #include "data/scheme.h"
 #include "reference/loop/masks.h"
+#include "verify/subject/receipt.h"
 #include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
@@ -224,9 +225,10 @@ struct Report {
   std::vector<Coverage> coverage;  // of audits of subjects ...
   std::vector<CaseCells> cases;    // ... and what it is made of
   double seconds = 0;
-  std::string containment;  // how the processes of isolated subjects were held; empty: there were none
-  std::string printed;      // by the subjects, on standard output and standard error
-  std::string incomplete;   // "interrupted by SIGINT": not all was looked at; empty: all was
+  std::string containment;        // how the processes of isolated subjects were held; empty: there were none
+  std::vector<Receipt> receipts;  // and what they took
+  std::string printed;            // by the subjects, on standard output and standard error
+  std::string incomplete;         // "interrupted by SIGINT": not all was looked at; empty: all was
 
   /// Against an earlier report (baseline.h), in rows.
   struct Changes {
@@ -238,8 +240,13 @@ struct Report {
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
   bool looked() const { return std::any_of(results.begin(), results.end(), looked_at); }
+  /// Whether nothing was left out for what this program or its system lacked.
+  bool host_sufficed() const {
+    return std::none_of(results.begin(), results.end(),
+                        [](const Result& r) { return r.origin == Origin::kHost; });
+  }
   bool held() const {
-    if (!incomplete.empty()) return false;
+    if (!incomplete.empty() || !host_sufficed()) return false;
     if (changes) return changes->appeared + changes->worse == 0;
     return std::none_of(results.begin(), results.end(), is_bad);
   }

@@ -75,11 +75,11 @@ bool PartReport::is_complete() const {
 std::string to_json(const PartReport& part) {
   Json results = Json::array();
   for (const auto& [unit, result] : part.results) results.push_back({unit, result});
-  const Json json{{"program", part.plan.program},    {"plan", part.plan.what},
-                  {"units", part.plan.units},        {"together", part.plan.together},
-                  {"shard", part.plan.shard.text()}, {"seconds", part.seconds},
-                  {"containment", part.containment}, {"printed", part.printed},
-                  {"incomplete", part.incomplete},   {"results", std::move(results)}};
+  const Json json{
+      {"program", part.plan.program},    {"plan", part.plan.what},          {"units", part.plan.units},
+      {"together", part.plan.together},  {"shard", part.plan.shard.text()}, {"seconds", part.seconds},
+      {"containment", part.containment}, {"printed", part.printed},         {"incomplete", part.incomplete},
+      {"receipts", part.receipts},       {"results", std::move(results)}};
   return sealed(json);
 }
 
@@ -96,7 +96,9 @@ PartReport read_part(const std::string& text) try {
   part.plan.shard = parse_shard(json.at("shard").get<std::string>());
   json.at("seconds").get_to(part.seconds), json.at("containment").get_to(part.containment);
   json.at("printed").get_to(part.printed), json.at("incomplete").get_to(part.incomplete);
-  if (part.plan.together == 0) throw data::ArgumentError("this is no part that --shard has made");
+  if (json.contains("receipts")) part.receipts = std::move(json.at("receipts"));
+  if (!part.receipts.is_array() || part.plan.together == 0)
+    throw data::ArgumentError("this is no part that --shard has made");
   for (Json& pair : json.at("results"))
     if (!part.results.emplace(data::value_of<std::size_t>(pair.at(0)), std::move(pair.at(1))).second)
       throw data::ArgumentError("it has a unit twice");
@@ -130,6 +132,7 @@ PartReport joined(const std::vector<PartReport>& parts) {
     whole.results.insert(p.results.begin(), p.results.end());
     whole.seconds += p.seconds;
     whole.printed += p.printed;
+    whole.receipts.insert(whole.receipts.end(), p.receipts.begin(), p.receipts.end());
     if (whole.containment.empty()) whole.containment = p.containment;
   }
   return whole;
@@ -209,6 +212,7 @@ void Journal::read() {
         refuse(fmt::format(":{}: unit {} is not of this plan", line, unit));
       if (!results_.emplace(unit, std::move(json.at("result"))).second)
         refuse(fmt::format(":{}: unit {} is there twice", line, unit));
+      if (json.contains("receipts")) before_ = std::move(json.at("receipts"));
     } catch (const Json::exception& error) {
       refuse(fmt::format(":{}: {}", line, error.what()));
     } catch (const data::ArgumentError& error) {
@@ -230,7 +234,9 @@ const Json* Journal::recall(std::size_t unit) const {
 }
 
 void Journal::keep(std::size_t unit, Json result) {
-  if (out_) write(sealed(Json{{"unit", unit}, {"result", result}}));
+  Json line{{"unit", unit}, {"result", result}};
+  if (receipts_) line["receipts"] = receipts_();
+  if (out_) write(sealed(line));
   if (remember_) results_[unit] = std::move(result);
 }
 

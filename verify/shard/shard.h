@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -67,6 +68,10 @@ class Journal {
   /// nullptr: it is not done.
   const nlohmann::json* recall(std::size_t unit) const;
   void keep(std::size_t unit, nlohmann::json result);
+  /// Has what this returns written with each result from now on, under "receipts". Before that it is what the last line
+  /// that was read has there, or null.
+  void attach(std::function<nlohmann::json()> receipts) { receipts_ = std::move(receipts); }
+  const nlohmann::json& receipts_before() const { return before_; }
   /// All that is there.
   const std::map<std::size_t, nlohmann::json>& results() const { return results_; }
   /// Deletes the file.
@@ -85,6 +90,8 @@ class Journal {
   };
   std::unique_ptr<std::FILE, Close> out_;
   std::map<std::size_t, nlohmann::json> results_;
+  std::function<nlohmann::json()> receipts_;
+  nlohmann::json before_;
 };
 
 struct PartReport {
@@ -93,13 +100,15 @@ struct PartReport {
   double seconds = 0;
   std::string containment, printed;  // as in Report (verify/row/result.h)
   std::string incomplete;            // why not all of the shard is done; empty: all is
+  // What subjects took: an array, and of the whole those of all parts (receipts_of in verify/report/json.h).
+  nlohmann::json receipts = nlohmann::json::array();
 
   /// Whether each unit of the shard is there, and no other.
   bool is_complete() const;
 };
 
-/// Keys: program, plan, units, together, shard, seconds, containment, printed, incomplete, results (pairs of
-/// unit and result).
+/// Keys: program, plan, units, together, shard, seconds, containment, printed, incomplete, receipts, results
+/// (pairs of unit and result).
 std::string to_json(const PartReport& part);
 /// Throws data::ArgumentError: the text is no part.
 PartReport read_part(const std::string& text);

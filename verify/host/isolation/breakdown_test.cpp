@@ -91,6 +91,14 @@ TEST_P(Hostile, IsAFindingAndTheAuditGoesOn) {
   expect_held(report, "tetrahedron");
   if (std::string(c.status) == "held") expect_held(report, "octahedron");
 
+  const json& receipt = report["receipts"].at(0);
+  const bool too_large = std::string(c.what) == "memory";
+  EXPECT_EQ(receipt["over_time"], std::string(c.status) == "timeout" ? 1 : 0);
+  EXPECT_EQ(receipt["over_memory"], too_large ? 1 : 0);
+  EXPECT_EQ(receipt["crashes"], std::string(c.status) == "crash" && !too_large ? 1 : 0);
+  EXPECT_GE(receipt["processes"], 2);
+  EXPECT_GE(receipt["peak_bytes"], too_large ? 500 << 20 : 1 << 20);
+
   // A breakdown is saved, and the command in the message repeats it; nothing else is left behind.
   std::set<std::string> left{".stdout", ".stderr"};
   if (std::string(c.status) == "crash" || std::string(c.status) == "timeout") {

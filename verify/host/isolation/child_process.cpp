@@ -67,15 +67,16 @@ std::atomic<bool> no_namespaces{false};
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits)
-    : limits_(limits) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits,
+                           Receipt* receipt)
+    : limits_(limits), receipt_(receipt != nullptr ? *receipt : unread_) {
   if (limits.namespaces && !no_namespaces) {
     start(command, Containment::kNamespace);
-    if (alive()) return;
-    no_namespaces = true;
+    no_namespaces = !alive();
   }
-  start(command, Containment::kSubreaper);
+  if (!alive()) start(command, Containment::kSubreaper);
   if (!alive()) refuse("cannot start a process");
+  ++receipt_.processes;
 }
 
 // If the child cannot be contained in this way, it is not alive afterwards, and errno says why.
@@ -203,6 +204,9 @@ void ChildProcess::check_alive() const {
 }
 
 void ChildProcess::fail(SubjectDied::Kind kind, const std::string& what) {
+  static constexpr std::array kCounts{&Receipt::crashes, &Receipt::over_time, &Receipt::over_memory,
+                                      &Receipt::broke_protocol};
+  ++(receipt_.*kCounts[static_cast<std::size_t>(kind)]);
   epitaph_ = what;
   kill_and_reap();
   kind_ = kind;
@@ -242,13 +246,18 @@ void ChildProcess::watch_limits() {
     fail(SubjectDied::Kind::kTimeout, fmt::format("no complete answer within {} s", limits_.seconds));
   if (now < next_look_) return;
   const std::vector<pid_t> all = descendants(keeper_);
-  const std::uint64_t bytes = held_bytes(all, limits_.memory_bytes());
+  const Held held = held_bytes(all, limits_.memory_bytes());
+  Receipt seen;
+  seen.most_at_once = static_cast<std::int64_t>(all.size());
+  seen.peak_bytes = static_cast<std::int64_t>(std::max(held.bytes, held.most));
+  seen.peak_shared = static_cast<std::int64_t>(held.shared);
+  add(receipt_, seen);
   // With thousands of processes a look takes long; at most a tenth of the time is spent on looking.
   const auto after = Clock::now();
   next_look_ = after + std::max<Clock::duration>(kTick, 9 * (after - now));
-  if (bytes > limits_.memory_bytes())
+  if (held.bytes > limits_.memory_bytes())
     fail(SubjectDied::Kind::kMemory,
-         fmt::format("took {} MiB of memory; {} MiB are allowed", bytes >> 20, limits_.memory_mib));
+         fmt::format("took {} MiB of memory; {} MiB are allowed", held.bytes >> 20, limits_.memory_mib));
   if (static_cast<std::int64_t>(all.size()) > limits_.processes)
     fail(SubjectDied::Kind::kMemory,
          fmt::format("has started {} processes; {} are allowed", all.size(), limits_.processes));

@@ -14,6 +14,7 @@
 
 #include "verify/host/isolation/keeper.h"
 #include "verify/host/isolation/protocol.h"
+#include "verify/subject/receipt.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify {
@@ -39,7 +40,9 @@ class ChildProcess : public protocol::Source {
  public:
   /// Throws HostLacks if the system cannot start another process, as all others do if it does not let them go
   /// on. A program that does not exist is found out with the first answer.
-  ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits);
+  ///   receipt   counts what it takes, if anybody asks; outlives it
+  ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits,
+               Receipt* receipt = nullptr);
   ~ChildProcess() override;
 
   /// Begins an exchange: sends a request; from now on the answer has `limits.seconds`.
@@ -83,6 +86,7 @@ class ChildProcess : public protocol::Source {
   void check_alive() const;
 
   ProcessLimits limits_;
+  Receipt unread_, &receipt_;
   Containment containment_ = Containment::kNamespace;
   pid_t keeper_ = -1;
   std::array<int, 5> pipe_{-1, -1, -1, -1, -1};

@@ -92,6 +92,44 @@ TEST_F(Process, IsKilledWithItsChildrenWhenTheyTakeTooMuchMemory) {
   EXPECT_EQ(kind_of([&] { child.line(100); }, "200 MiB are allowed"), Kind::kMemory);
 }
 
+TEST_F(Process, LeavesAReceiptOfWhatItTook) {
+  Receipt receipt;
+  {
+    // Holds 60 MB for a moment between two looks; then one process more than itself.
+    ChildProcess child(
+        sh("python3 -c 'x = bytes([1]) * 60000000'; sleep 1000 & echo here; read line; echo ok"), {},
+        &receipt);
+    child.ask("?\n");
+    EXPECT_EQ(child.line(100), "here");
+    EXPECT_GE(receipt.most_at_once, 2);
+    EXPECT_EQ(child.line(100), "ok");
+    child.finish();
+  }
+  {
+    ChildProcess child(sh("exec python3 -c 'x = bytes([1]) * 60000000; del x; print(1)'"), {}, &receipt);
+    EXPECT_EQ(child.line(100), "1");
+    EXPECT_GE(receipt.peak_bytes, 60000000) << "though it had it between two looks";
+    EXPECT_LT(receipt.peak_bytes, 200000000);
+  }
+  EXPECT_EQ(receipt.processes, 2);
+  EXPECT_EQ(receipt.peak_shared, 0);
+  EXPECT_EQ(receipt.crashes + receipt.over_time + receipt.over_memory + receipt.broke_protocol, 0);
+  ChildProcess gone(sh("exit 5"), {}, &receipt);
+  EXPECT_EQ(kind_of([&] { gone.line(100); }), Kind::kCrash);
+  ChildProcess slow(sh("sleep 1000"), {0.3, 4096}, &receipt);
+  EXPECT_EQ(kind_of([&] { slow.line(100); }), Kind::kTimeout);
+  ChildProcess shares(
+      sh("exec python3 -c 'import os, time; f = os.memfd_create(\"m\"); "
+         "os.ftruncate(f, 300 << 20); os.posix_fallocate(f, 0, 300 << 20); time.sleep(1000)'"),
+      {60, 200}, &receipt);
+  EXPECT_EQ(kind_of([&] { shares.line(100); }), Kind::kMemory);
+  EXPECT_EQ(receipt.crashes, 1);
+  EXPECT_EQ(receipt.over_time, 1);
+  EXPECT_EQ(receipt.over_memory, 1);
+  EXPECT_GT(receipt.peak_shared, 200 << 20);
+  EXPECT_EQ(receipt.processes, 5);
+}
+
 TEST_F(Process, IsGoneWithTheObject) {
   ChildProcess idle(sh("sleep 1000"), {});
 }

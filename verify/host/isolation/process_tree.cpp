@@ -109,12 +109,13 @@ void add_unnamed(pid_t process, const fs::path& proc, Unnamed& found) {
       add_unnamed(folder / "map_files" / line.substr(0, line.find(' ')), found);
 }
 
-// Each page divided by the number of those who have it, if the system tells.
-std::uint64_t proportional_bytes(pid_t process, const fs::path& proc) {
-  std::ifstream in(proc / std::to_string(process) / "smaps_rollup");
+// What a file of a process says in KiB behind a word, if the system tells; otherwise what is resident: nothing if it
+// has ended meanwhile.
+std::uint64_t bytes_behind(std::string_view sought, const char* file, pid_t process, const fs::path& proc) {
+  std::ifstream in(proc / std::to_string(process) / file);
   for (std::string word; in >> word;)
-    if (std::uint64_t kib = 0; word == "Pss:" && in >> kib) return kib << 10;
-  return resident_bytes(process, proc);  // nothing if it has ended meanwhile
+    if (std::uint64_t kib = 0; word == sought && in >> kib) return kib << 10;
+  return resident_bytes(process, proc);
 }
 
 }  // namespace
@@ -129,18 +130,24 @@ std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t 
   for (const pid_t p : processes) sum += resident_bytes(p, proc);
   if (sum <= enough || processes.size() == 1) return sum;
   sum = 0;
-  for (const pid_t p : processes) sum += proportional_bytes(p, proc);
+  // Each page divided by the number of those who have it.
+  for (const pid_t p : processes) sum += bytes_behind("Pss:", "smaps_rollup", p, proc);
   return sum;
 }
 
-std::uint64_t held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough, const fs::path& proc) {
+Held held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough, const fs::path& proc) {
   Unnamed found;
-  std::uint64_t unnamed = 0, shared = 0;
-  for (const pid_t p : processes) add_unnamed(p, proc, found), resident_bytes(p, proc, &shared);
-  for (const auto& [file, bytes] : found) unnamed += bytes;
+  Held held;
+  std::uint64_t of_files = 0;
+  for (const pid_t p : processes) {
+    add_unnamed(p, proc, found), resident_bytes(p, proc, &of_files);
+    held.most = std::max(held.most, bytes_behind("VmHWM:", "status", p, proc));
+  }
+  for (const auto& [file, bytes] : found) held.shared += bytes;
   // Some of it may be resident, too: that counts once.
   const std::uint64_t resident = resident_bytes(processes, enough, proc);
-  return std::max(resident, resident - std::min(resident, shared) + unnamed);
+  held.bytes = std::max(resident, resident - std::min(resident, of_files) + held.shared);
+  return held;
 }
 
 }  // namespace limitcheck::verify

@@ -22,8 +22,12 @@ std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t 
                              const std::filesystem::path& proc = "/proc");
 
 /// Bytes that these processes hold: what they have resident, and all of the shared memory without a name (memfd,
-/// unlinked files of a tmpfs) that they have open or mapped, whether or not they look at it.
-std::uint64_t held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
-                         const std::filesystem::path& proc = "/proc");
+/// unlinked files of a tmpfs) that they have open or mapped, whether or not they look at it. Of these, `shared`: such
+/// shared memory; and `most` of the processes' largest resident size so far, of one of them.
+struct Held {
+  std::uint64_t bytes = 0, shared = 0, most = 0;
+};
+Held held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
+                const std::filesystem::path& proc = "/proc");
 
 }  // namespace limitcheck::verify

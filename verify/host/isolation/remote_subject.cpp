@@ -192,6 +192,7 @@ RemoteSubject::RemoteSubject(Kind kind, std::string what, IsolationSettings sett
   slots[slot_] = this;
   subject_.abi = LC_SUBJECT_ABI;
   subject_.name = name_.c_str();
+  receipt_.subject = name_;
   subject_.description = "runs in a process of its own";
   RemoteCalls::install(subject_, slot_, std::make_index_sequence<RemoteCalls::kSlots>());
   subject_.tessellate = &RemoteCalls::tessellate;
@@ -203,7 +204,7 @@ RemoteSubject::~RemoteSubject() {
   RemoteCalls::slots()[slot_] = nullptr;
 }
 
-std::unique_ptr<ChildProcess> RemoteSubject::start() const {
+std::unique_ptr<ChildProcess> RemoteSubject::start() {
   std::vector<std::string> command;
   switch (kind_) {
     case Kind::kLibrary:
@@ -217,7 +218,7 @@ std::unique_ptr<ChildProcess> RemoteSubject::start() const {
       break;
   }
   if (settings_.in_turns) command.emplace_back("--in-turns");
-  return std::make_unique<ChildProcess>(command, settings_.limits);
+  return std::make_unique<ChildProcess>(command, settings_.limits, &receipt_);
 }
 
 namespace {

@@ -43,15 +43,18 @@ class RemoteSubject {
 
   /// How its last process was contained; none if there was no process yet.
   std::optional<Containment> containment() const { return containment_; }
+  /// What its processes took so far.
+  const Receipt& receipt() const { return receipt_; }
 
  private:
   friend struct RemoteCalls;
-  std::unique_ptr<ChildProcess> start() const;
+  std::unique_ptr<ChildProcess> start();
 
   Kind kind_;
   std::string what_, name_;
   IsolationSettings settings_;
   lc_subject subject_{};
+  Receipt receipt_;
   std::size_t slot_ = 0;
   // Started for capabilities(), and used by the create() that follows.
   std::unique_ptr<ChildProcess> waiting_;

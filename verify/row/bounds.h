@@ -38,7 +38,7 @@ inline constexpr std::int64_t kOrdinaryTerms = 33;
 /// A new point is a sum of products w_k p_k with weights that add up to 1, none below 0. Rounding a weight and
 /// its product makes at most 2 u w_k M, of all of them 2 u M. Each of the terms - 1 additions rounds a partial
 /// sum, which is no larger than M, and so makes at most u M, in whatever order: together (terms + 1) u M, to the
-/// first order in u. An order and numbers are easily found that reach terms * u M (bounds_test.cpp).
+/// first order in u. An order and numbers are easily found that reach terms * u M (row_test.cpp).
 ///
 /// An ordinary stencil has 3 to 7 terms, which is eight roundings. Of longer sums up to kOrdinaryTerms errors do
 /// not all go one way at each of the steps: measured, eight are enough for them, too.

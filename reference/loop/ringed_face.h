@@ -83,8 +83,10 @@ class SteppedFan<Vec3<N>> {
 
  private:
   void add(const Vec3<N>& point, std::vector<Vec3<N>> ring) const {
-    const VertexLimit<N> limit = vertex_limit<N>(point, ring, false, weights_);
-    steps_.push_back({point, std::move(ring), limit});
+    steps_.push_back({point, std::move(ring), {}});
+    Step& step = steps_.back();
+    if constexpr (requires { NumberTraits<N>::kNormalThreshold; })  // fractions have no normals
+      step.limit = vertex_limit<N>(step.point, step.ring, false, weights_);
   }
 
   Weights weights_;

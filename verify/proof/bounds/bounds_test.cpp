@@ -18,9 +18,9 @@
 #include "reference/loop/stam.h"
 #include "reference/number/number_exact.h"
 #include "verify/proof/bounds/bounds.h"
-#include "verify/proof/proof_set.h"
 #include "verify/proof/maps/reference_map.h"
 #include "verify/proof/numbers/quad_weights.h"
+#include "verify/proof/proof_set.h"
 #include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {

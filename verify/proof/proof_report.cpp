@@ -347,15 +347,15 @@ std::string ProofReport::json() const {
   nlohmann::ordered_json certified = nlohmann::ordered_json::array();
   for (const CertifiedLine& line : certified_) {
     const auto proved = proved_of(line);
-    using Json = nlohmann::ordered_json;
+    using Ordered = nlohmann::ordered_json;
     certified.push_back({{"mesh", line.mesh},
                          {"kernel", line.kernel},
                          {"depth", line.depth},
                          {"points", line.errors.points},
                          {"position", line.errors.position},
                          {"normal", line.errors.normal},
-                         {"position_bound", proved ? Json(proved->position_of(line.errors)) : Json()},
-                         {"normal_bound", proved ? Json(proved->normal_of(line.errors)) : Json()}});
+                         {"position_bound", proved ? Ordered(proved->position_of(line.errors)) : Ordered()},
+                         {"normal_bound", proved ? Ordered(proved->normal_of(line.errors)) : Ordered()}});
   }
   const nlohmann::ordered_json document = {{"scheme", name_of(set_.scheme)}, {"held", held()},
                                            {"complete", complete()},         {"rows", rows},

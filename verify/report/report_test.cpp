@@ -210,7 +210,7 @@ TEST(AReport, DoesNotHoldWhereTheHostLackedSomething) {
   EXPECT_TRUE(report.held());
   report.results[1].origin = Origin::kHost;
   EXPECT_FALSE(report.held());
-  report.changes.emplace();
+  report.changes = Report::Changes{};
   EXPECT_FALSE(report.held()) << "nor against a baseline";
 }
 

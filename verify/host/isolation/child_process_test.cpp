@@ -106,7 +106,9 @@ TEST_F(Process, LeavesAReceiptOfWhatItTook) {
     child.finish();
   }
   {
-    ChildProcess child(sh("exec python3 -c 'x = bytes([1]) * 60000000; del x; print(1)'"), {}, &receipt);
+    ChildProcess child(
+        sh("exec python3 -c 'x = bytes([1]) * 60000000; del x; print(1, flush=True); input()'"), {},
+        &receipt);
     EXPECT_EQ(child.line(100), "1");
     EXPECT_GE(receipt.peak_bytes, 60000000) << "though it had it between two looks";
     EXPECT_LT(receipt.peak_bytes, 200000000);
@@ -126,7 +128,7 @@ TEST_F(Process, LeavesAReceiptOfWhatItTook) {
   EXPECT_EQ(receipt.crashes, 1);
   EXPECT_EQ(receipt.over_time, 1);
   EXPECT_EQ(receipt.over_memory, 1);
-  EXPECT_GT(receipt.peak_shared, 200 << 20);
+  EXPECT_GT(receipt.peak_shared, 150 << 20) << "an interpreter itself has less than 50 of the 200 MiB";
   EXPECT_EQ(receipt.processes, 5);
 }
 

@@ -13,7 +13,7 @@ if [[ $# -gt 0 ]]; then
   exec "$top/build/release/limitcheck" "$@"
 fi
 cd "$top"
-echo "Auditing the built-in tessellators (two minutes on two cores) ..." >&2
+echo "Auditing the built-in tessellators (four minutes on two cores) ..." >&2
 code=0
 build/release/limitcheck audit || code=$?
 case $code in

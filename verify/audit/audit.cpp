@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verify/audit/audit.h"
 
-#include <malloc.h>
-
 #include <fmt/core.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>

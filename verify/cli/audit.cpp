@@ -335,7 +335,7 @@ void add_audit(CLI::App& app, int& exit_code) {
                                   "vertices, and cull the others: for meshes of millions of faces");
   add_value(*command, "--exhaustive", a->exhaustive, "VALENCE",
             "Audit every tagged neighbourhood up to so many faces around a vertex, of what SUBJECT does, at "
-            "depths 0, 1 and 2; 8 takes about an hour a scheme")
+            "depths 0, 1 and 2; 8 takes about half an hour a scheme on one core")
       ->check(CLI::Range(3, 10));
   add_subject_settings(*command, a->options);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")

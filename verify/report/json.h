@@ -12,7 +12,8 @@
 namespace limitcheck::verify {
 
 /// The report as one JSON document. Keys of the header: program, version, depth, seconds, held, receipts (what
-/// subjects in processes of their own took), never_judged, subjects, meshes (name with the generator's seed, vertices, faces). `results`: subject, mesh, depth,
+/// subjects in processes of their own took), never_judged, subjects, meshes (name with the generator's seed,
+/// vertices, faces). `results`: subject, mesh, depth,
 /// depths, sample, check, status, count (how many are wrong), of (of how many), worst, bound, unit, rms, p99,
 /// worst_absolute, worst_ulps, message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got,
 /// expected_digits, command, reproduce) - null where it does not apply. The schema:

@@ -272,7 +272,7 @@ pid_t clone_keeper(Containment containment, char* const* argv, const KeeperPipes
         syscall(SYS_clone, flags | SIGCHLD | (as_sibling ? CLONE_PARENT : 0), 0, 0, 0, 0));
   };
   if (containment == Containment::kSubreaper) {
-    const pid_t keeper = as_sibling ? clone(0) : fork();
+    const pid_t keeper = as_sibling ? clone(0) : fork();  // which sanitizers know of
     if (keeper == 0) keep(false, nullptr, argv, pipes);
     return keeper;
   }

@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <map>
 #include <mutex>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "verify/checks/check_oracle.h"
@@ -19,6 +24,7 @@
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/recognise/recognise.h"
+#include "verify/relations/refusal.h"
 #include "verify/relations/relation_row.h"
 #include "verify/relations/relations.h"
 #include "verify/report/json.h"
@@ -123,15 +129,26 @@ struct Auditor::Rows {
   }
 };
 
+// What all that work at an audit have in common.
+struct Auditor::Shared {
+  std::function<void(const AuditStep&)> on_step;
+  std::mutex mutex;
+  std::size_t done = 0, total = 1;
+  std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals;  // of each subject, once
+};
+
 Auditor::Auditor(int depth, int threads, std::function<void(const AuditStep&)> on_step, Level level)
-    : depth_(depth), threads_(threads), on_step_(std::move(on_step)), level_(level) {}
+    : depth_(depth), threads_(threads), level_(level), shared_(std::make_shared<Shared>()) {
+  shared_->on_step = std::move(on_step);
+}
 
 Auditor::~Auditor() = default;
 
 void Auditor::step(const std::string& subject, const std::string& mesh, std::string_view check) {
   if (interrupted() != 0) return;  // nobody may be there any more
   if (keep_rows_) keep_rows_();
-  if (on_step_) on_step_({subject, mesh, std::string(check), done_, total_});
+  const std::scoped_lock lock(shared_->mutex);
+  if (shared_->on_step) shared_->on_step({subject, mesh, std::string(check), shared_->done, shared_->total});
 }
 
 bool Auditor::related(const AuditMesh& mesh, const data::ControlMesh& judged) const {
@@ -159,12 +176,12 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Sch
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
   // The rows as they come, and those that were there before the last check. Work that is left keeps both.
-  struct Shared {
+  struct Kept {
     std::vector<Result> rows;
     std::mutex mutex;
     std::vector<Result> kept;
   };
-  const auto shared = std::make_shared<Shared>();
+  const auto shared = std::make_shared<Kept>();
   std::string lack;
   bool left = false;
   const bool begun = interrupted() == 0;
@@ -193,7 +210,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     results = std::move(shared->rows);
   }
   if (!lack.empty()) {
-    cache_.clear();
+    forget();
     lack_ = lack;
   }
   // Witnesses on a sample name the faces of the whole mesh, also in rows of an audit that was interrupted.
@@ -236,9 +253,14 @@ void Auditor::add_missing(const AuditSubject& audited, const AuditMesh& mesh, bo
       rows.add_lack(check, lack);
 }
 
+void Auditor::forget() {
+  guesses_.clear();
+  cache_.clear();
+}
+
 void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vector<Result>& results) {
   if (cached_mesh_ != mesh.name) {
-    cache_.clear();
+    forget();
     malloc_trim(0);  // the heaps of many threads keep what they had, gigabytes in the end
   }
   cached_mesh_ = mesh.name;
@@ -291,12 +313,14 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
 
   run_checks(evidence, rows, no_reference);
   if (keep_rows_) keep_rows_();
-  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results);
+  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results, guesses_);
   if (interrupted() != 0) return;
   const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
   if (related(mesh, judged)) {
-    for (Result& r :
-         check_relations(audited, evidence, threads_, refusals_[{rows.subject, mesh.scheme()}], told))
+    std::unique_lock lock(shared_->mutex);
+    std::vector<Refusal>& refusals = shared_->refusals[{rows.subject, mesh.scheme()}];
+    lock.unlock();
+    for (Result& r : check_relations(audited, evidence, threads_, refusals, told))
       results.push_back(std::move(r));
   } else if (!rows_of_relations(mesh, judged).empty()) {
     told("determinism");
@@ -330,30 +354,99 @@ void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::
   }
 }
 
+struct Auditor::Work {
+  const std::vector<AuditSubject>& subjects;
+  const std::vector<AuditMesh>& meshes;
+  Journal* journal;
+  std::vector<std::vector<Result>> results;  // of each unit
+  std::map<const lc_subject*, std::mutex> asked;
+  std::mutex mutex;  // of what follows, and of the journal
+  std::size_t next = 0;
+  std::exception_ptr error;
+};
+
+void Auditor::run_unit(Work& work, std::size_t mesh, std::size_t subject) {
+  const std::size_t unit = mesh * work.subjects.size() + subject;
+  const nlohmann::json* known = nullptr;
+  if (work.journal != nullptr) {
+    const std::scoped_lock lock(work.mutex);
+    if (!work.journal->plan().has(unit)) return;
+    known = work.journal->recall(unit);
+  }
+  work.results[unit] = known != nullptr ? rows_of(*known) : run(work.subjects[subject], work.meshes[mesh]);
+  if (work.journal != nullptr && known == nullptr && !gave_up_ && lack_.empty()) {
+    const std::scoped_lock lock(work.mutex);
+    work.journal->keep(unit, rows_json(work.results[unit]));
+  }
+  const std::scoped_lock lock(shared_->mutex);
+  ++shared_->done;
+}
+
+void Auditor::take_part(Work& work) try {
+  for (;;) {
+    std::unique_lock lock(work.mutex);
+    if (work.next == work.meshes.size()) return;
+    const std::size_t mesh = work.next++;
+    lock.unlock();
+    std::vector<std::size_t> left(work.subjects.size());
+    std::iota(left.begin(), left.end(), std::size_t{0});
+    while (!left.empty()) {
+      std::unique_lock<std::mutex> asked;
+      const auto is_free = [&](std::size_t s) {
+        asked = std::unique_lock(work.asked.at(work.subjects[s].subject), std::try_to_lock);
+        return asked.owns_lock();
+      };
+      auto next = std::find_if(left.begin(), left.end(), is_free);
+      if (next == left.end()) {
+        next = left.begin();
+        asked = std::unique_lock(work.asked.at(work.subjects[*next].subject));
+      }
+      run_unit(work, mesh, *next);
+      left.erase(next);
+    }
+  }
+} catch (...) {
+  const std::scoped_lock lock(work.mutex);
+  if (!work.error) work.error = std::current_exception();
+  work.next = work.meshes.size();
+}
+
 std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
                                  const std::vector<AuditMesh>& meshes, Journal* journal) {
   // Audited mesh by mesh, so that subjects share the reference; returned subject by subject.
-  done_ = 0;
-  total_ = 0;
-  for (std::size_t unit = 0; unit < subjects.size() * meshes.size(); ++unit)
-    total_ += journal == nullptr || journal->plan().has(unit) ? 1 : 0;
-  std::vector<std::vector<Result>> of_subject(subjects.size());
-  for (std::size_t m = 0; m < meshes.size(); ++m)
-    for (std::size_t s = 0; s < subjects.size(); ++s) {
-      const std::size_t unit = m * subjects.size() + s;
-      if (journal != nullptr && !journal->plan().has(unit)) continue;
-      const nlohmann::json* known = journal != nullptr ? journal->recall(unit) : nullptr;
-      std::vector<Result> results = known != nullptr ? rows_of(*known) : run(subjects[s], meshes[m]);
-      if (journal != nullptr && known == nullptr && !gave_up_ && lack_.empty())
-        journal->keep(unit, rows_json(results));
-      for (Result& r : results) of_subject[s].push_back(std::move(r));
-      ++done_;
+  const std::size_t units = subjects.size() * meshes.size();
+  Work work{subjects, meshes, journal, std::vector<std::vector<Result>>(units)};
+  for (const AuditSubject& s : subjects) work.asked.try_emplace(s.subject);
+  shared_->done = 0;
+  shared_->total = 0;
+  for (std::size_t unit = 0; unit < units; ++unit)
+    shared_->total += journal == nullptr || journal->plan().has(unit) ? 1 : 0;
+  std::vector<std::thread> threads;
+  const std::size_t workers =
+      std::min({static_cast<std::size_t>(threads_), work.asked.size(), meshes.size()});
+  while (threads.size() + 1 < workers) try {
+      others_.push_back(std::unique_ptr<Auditor>(new Auditor(*this, 0)));
+      threads.emplace_back([&work, other = others_.back().get()] { other->take_part(work); });
+    } catch (const std::system_error&) {  // there are no more threads to be had
+      break;
     }
+  take_part(work);
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& other : others_) {
+    gave_up_ = gave_up_ || other->gave_up_;
+    abandoned_ = abandoned_ || other->abandoned_;
+    if (lack_.empty()) lack_ = other->lack_;
+  }
+  if (!abandoned_) others_.clear();
+  if (work.error) std::rethrow_exception(work.error);
   std::vector<Result> all;
-  for (auto& results : of_subject)
-    all.insert(all.end(), std::make_move_iterator(results.begin()), std::make_move_iterator(results.end()));
-  total_ = 1;
-  done_ = 0;
+  for (std::size_t s = 0; s < subjects.size(); ++s)
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      auto& results = work.results[m * subjects.size() + s];
+      all.insert(all.end(), std::make_move_iterator(results.begin()), std::make_move_iterator(results.end()));
+    }
+  shared_->total = 1;
+  shared_->done = 0;
   return all;
 }
 

@@ -2,8 +2,8 @@
 // An audit: subjects x meshes x checks.
 #pragma once
 
+#include <cstddef>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@
 #include "verify/evidence/audit_case.h"
 #include "verify/evidence/evidence.h"
 #include "verify/evidence/reference_surface.h"
-#include "verify/relations/refusal.h"
+#include "verify/recognise/recognise.h"
 #include "verify/row/result.h"
 #include "verify/shard/shard.h"
 
@@ -59,7 +59,9 @@ class Auditor {
 
   /// Every subject on every mesh; results are ordered by subject, then by mesh. Unit m * subjects + s of the
   /// journal's plan is subject s on mesh m: those that its shard has not are left out, those that it knows are
-  /// taken from it, and every other is audited and, if that was not interrupted, added to it.
+  /// taken from it, and every other is audited and, if that was not interrupted, added to it. Different
+  /// subjects are asked at a time, on as many of the threads as there are subjects; one subject is asked one
+  /// thing at a time, because what it knows may be all its sessions'.
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
                           Journal* journal = nullptr);
 
@@ -68,6 +70,19 @@ class Auditor {
 
  private:
   struct Rows;
+  struct Shared;
+  struct Work;
+
+  // One that works beside it: the same audit, with a reference of its own.
+  explicit Auditor(const Auditor& first, int)
+      : depth_(first.depth_),
+        threads_(first.threads_),
+        level_(first.level_),
+        shared_(first.shared_),
+        leaves_(first.leaves_) {}
+  // Takes meshes until there is none left.
+  void take_part(Work& work);
+  void run_unit(Work& work, std::size_t mesh, std::size_t subject);
 
   // Adds rows to `results` as they come, so that an interrupt keeps those that are there.
   void judge(const AuditSubject& subject, const AuditMesh& mesh, std::vector<Result>& results);
@@ -84,17 +99,18 @@ class Auditor {
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
   ReferenceSurface& reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                               const lc_capabilities& capabilities);
+  void forget();  // all that is kept of a mesh
   void step(const std::string& subject, const std::string& mesh, std::string_view check);
 
   int depth_, threads_;
-  std::function<void(const AuditStep&)> on_step_;
   Level level_;
-  std::size_t done_ = 0, total_ = 1;
+  std::shared_ptr<Shared> shared_;
+  std::vector<std::unique_ptr<Auditor>> others_;  // that work beside it
   std::string lack_;
   bool gave_up_ = false, leaves_ = false, abandoned_ = false;
   std::function<void()> keep_rows_;  // called between two checks
-  std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals_;  // of each subject, once
   std::string cached_mesh_;
+  KeptGuesses guesses_;
   std::vector<std::unique_ptr<ReferenceSurface>>
       cache_;  // of one mesh: by precision, kind of points and weights
 };

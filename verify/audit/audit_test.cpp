@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <map>
 #include <ostream>
 #include <semaphore>
 #include <set>
+#include <thread>
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
@@ -55,6 +59,50 @@ TEST(Audit, AGoodSubjectHoldsOnAClosedMeshInEveryCheck) {
     RecordProperty(fmt::format("worst_position_{}", mesh),
                    fmt::format("{:.2e}", row(results, "positions").worst.value_or(-1)));
   }
+}
+
+std::array<std::atomic<int>, 2> inside;  // requests that each of two subjects is at
+std::atomic<int> most_inside = 0;
+std::atomic<bool> both_inside = false;
+
+// The naive subject, which stays at a request until the other is at one, too.
+template <std::size_t Which>
+lc_subject watched() {
+  lc_subject subject = *find_subject("naive");
+  subject.name = Which == 0 ? "one" : "other";
+  subject.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
+                          const char** message) {
+    most_inside = std::max(most_inside.load(), ++inside[Which]);
+    static const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    while (!both_inside && std::chrono::steady_clock::now() < until) {
+      if (inside[1 - Which] > 0) both_inside = true;
+      std::this_thread::yield();
+    }
+    const lc_status status = find_subject("naive")->tessellate(instance, request, out, message);
+    --inside[Which];
+    return status;
+  };
+  return subject;
+}
+
+TEST(Audit, AsksDifferentSubjectsAtATimeAndEachOneThing) {
+  const lc_subject one = watched<0>(), other = watched<1>();
+  std::vector<AuditMesh> meshes;
+  for (const char* name : {"octahedron", "tetrahedron", "icosahedron", "bumpy:20", "torus"})
+    meshes.push_back({name, data::named_mesh(name)});
+  const auto results =
+      Auditor(1, 4).run(std::vector<AuditSubject>{{&one, ""}, {&other, ""}, {&one, ""}}, meshes);
+  EXPECT_TRUE(both_inside);
+  EXPECT_EQ(most_inside, 1);
+  std::size_t at = 0;
+  for (const char* subject : {"one", "other", "one"})
+    for (const AuditMesh& mesh : meshes)
+      for (const std::string& check : Auditor(1, 1).row_names({&one, ""}, mesh)) {
+        ASSERT_LT(at, results.size());
+        EXPECT_EQ(results[at].subject, subject);
+        EXPECT_EQ(results[at].mesh, mesh.name);
+        EXPECT_EQ(results[at++].check, check);
+      }
 }
 
 TEST(Audit, HolesAreNotShownAndShapeTheirNeighbours) {

@@ -321,6 +321,7 @@ AuditMesh made(const PlannedCase& planned) {
   m.face_depth = face_depths(parse_depths(planned.depths), m.mesh, planned.depth);
   m.depths = planned.depths;
   m.relations = planned.relations;
+  m.asked_again = planned.asked_again;
   if (m.mesh.positions.size() > 0x8000 && m.depth > 0)
     m.sample = std::make_shared<MeshSample>(m.mesh, kSampled, 1);
   return m;

@@ -17,6 +17,7 @@ struct PlannedCase {
   int depth = 0;
   std::string depths = "uniform";
   bool relations = false;
+  bool asked_again = true;  // AuditMesh::asked_again
 };
 /// Of meshes of more vertices than 15 bits number, a sample.
 AuditMesh made(const PlannedCase& planned);

@@ -103,11 +103,12 @@ std::vector<PlannedCase> chosen_cases(Level level) {
 
 std::vector<AuditMesh> default_plan(Level level) {
   std::vector<PlannedCase> cases = chosen_cases(level);
+  // Deep requests with other threads are no matter of neighbourhoods: stars without relations do without.
   for (const bool triangles : {true, false}) {
     const auto& stars = data::planned_stars(triangles);
     for (std::size_t k = 0; k < stars.size(); ++k)
       cases.push_back({fmt::format("{}:{}", triangles ? "stars" : "quad-stars", k + 1), stars[k].depth,
-                       stars[k].depths, stars[k].relations});
+                       stars[k].depths, stars[k].relations, stars[k].relations});
   }
   // The cases of a mesh together, so that its exact surface is there for all of them.
   std::vector<AuditMesh> plan;

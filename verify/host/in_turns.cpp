@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kMany = 16384;  // triangles of requests whose answers are thrown away
 
-const lc_subject* inner = nullptr;  // the functions of a subject are not told whose they are
+// The functions of a subject are not told whose they are. Of each thread, because several subjects may be asked at a time.
+thread_local const lc_subject* inner = nullptr;
 
 // Memory for answers that are thrown away, as the plug-in interface promises it.
 struct Scratch {

@@ -146,7 +146,7 @@ Likeness likeness(const Evidence& e, const std::vector<double>& distance, double
 
 // The best of the guesses that convince, as a sentence and `recognised` of a row of positions; and the row of
 // the points that are not those.
-std::optional<Result> origin_of_points(const Evidence& e, Result& positions) {
+std::optional<Result> origin_of_points(const Evidence& e, Result& positions, KeptGuesses& kept) {
   const int steps = e.lattice.depth();
   if (std::any_of(e.face_depth.begin(), e.face_depth.end(), [&](int d) { return d >= 0 && d != steps; }))
     return std::nullopt;
@@ -168,8 +168,10 @@ std::optional<Result> origin_of_points(const Evidence& e, Result& positions) {
   std::string text;
   for (const Guess& g : guesses_for(e)) {
     if (is_hopeless(g)) continue;
-    const SchemePoints points =
-        placed_scheme_points(g.tags ? e.mesh : smooth, g.scheme, steps, g.limit, e.lattice.scheme());
+    const auto [at_key, is_new] = kept.try_emplace({&e.reference, g.scheme, g.limit, g.tags});
+    SchemePoints& points = at_key->second;
+    if (is_new)
+      points = placed_scheme_points(g.tags ? e.mesh : smooth, g.scheme, steps, g.limit, e.lattice.scheme());
     const std::vector<double> distance = distances(e, points, at);
     const Likeness like = likeness(e, distance, bound);
     if (!like.convincing() || !(like.misfit() < least)) continue;
@@ -255,12 +257,12 @@ struct FacetMeans {
 
 }  // namespace
 
-void recognise(const Evidence& e, std::vector<Result>& results) {
+void recognise(const Evidence& e, std::vector<Result>& results, KeptGuesses& kept) {
   if (e.lattice.size() > kRecognised) return;
   std::optional<Result> row;
   for (Result& r : results) {
     if (r.status != Status::kFinding) continue;
-    if (r.check == "positions" || r.check == "refined-positions") row = origin_of_points(e, r);
+    if (r.check == "positions" || r.check == "refined-positions") row = origin_of_points(e, r, kept);
     if (r.check != "normals") continue;
     const std::string text = origin_of_normals(e);
     if (!text.empty()) r.message += (r.message.empty() ? "" : "; ") + text;

@@ -3,15 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "verify/evidence/evidence.h"
 #include "verify/evidence/vector.h"
+#include "verify/recognise/guessed_rule.h"
 
 namespace limitcheck::verify {
+
+/// What other rules make of a mesh, kept for its next subject: by its reference, the rule, whether limit points, and
+/// whether with its tags.
+using KeptGuesses = std::map<std::tuple<const ReferenceSurface*, GuessedRule, bool, bool>, SchemePoints>;
 
 /// Adds a sentence, and of positions `recognised`, to the findings among `results`, the rows of this evidence,
 /// that it can explain:
@@ -21,7 +28,7 @@ namespace limitcheck::verify {
 ///   normals                        origin_of_normals()
 /// Then the row `recognised` is added: the points that are not those of what was recognised, by the bound of
 /// the positions. Does nothing without such a finding, or if there are more than kRecognised lattice points.
-void recognise(const Evidence& e, std::vector<Result>& results);
+void recognise(const Evidence& e, std::vector<Result>& results, KeptGuesses& kept);
 
 inline constexpr Lattice::Id kRecognised = 300000;
 

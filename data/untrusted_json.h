@@ -4,13 +4,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -23,45 +21,14 @@ namespace limitcheck::data {
 
 /// How deep brackets nest in a JSON text, so that a caller can refuse a hostile text before a recursive
 /// parser sees it. For a text that is no JSON the number means nothing.
-inline std::size_t json_nesting(std::string_view json) {
-  std::size_t depth = 0, deepest = 0;
-  bool in_text = false;
-  for (std::size_t k = 0; k < json.size(); ++k) {
-    const char c = json[k];
-    if (in_text) {
-      if (c == '\\') ++k;
-      in_text = c != '"';
-    } else if (c == '"') {
-      in_text = true;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((c == ']' || c == '}') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
-}
+std::size_t json_nesting(std::string_view json);
 
 /// No file or answer of ours needs more; a recursive parser ends the process at some 100 000.
 inline constexpr std::size_t kDeepestJson = 32;
 
 /// Discarded (nlohmann's word) if the text is no JSON. Throws ArgumentError: it nests deeper than `deepest`, or
 /// names a key twice in one object, of which a parser would silently keep one.
-inline nlohmann::json parse_untrusted(std::string_view text, std::size_t deepest = kDeepestJson) {
-  using Json = nlohmann::json;
-  if (const std::size_t depth = json_nesting(text); depth > deepest)
-    throw ArgumentError(fmt::format("its JSON nests {} deep; {} are read", depth, deepest));
-  std::vector<std::set<std::string>> keys;
-  const auto look = [&](int, Json::parse_event_t event, Json& value) {
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(value.get_ref<const std::string&>()).second)
-      throw ArgumentError(
-          fmt::format("\"{}\" stands twice in one object", value.get_ref<const std::string&>()));
-    return true;
-  };
-  return Json::parse(text, look, /*allow_exceptions=*/false);
-}
+nlohmann::json parse_untrusted(std::string_view text, std::size_t deepest = kDeepestJson);
 
 /// json -> value, as nlohmann's get_to does; a whole number is one, and fits: of 1e76 or 1.5 there would be something
 /// else left. Throws ArgumentError; nlohmann's exceptions.

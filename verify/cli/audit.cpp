@@ -110,6 +110,7 @@ void refuse_with_shards(const AuditArguments& a) {
   a.shard.check();
   for (const auto& [option, given] :
        {std::pair{"--baseline", !a.output.baseline.empty()},
+        std::pair{"--save-baseline", !a.output.save_baseline.empty()},
         std::pair{"--waivers", !a.output.waivers.empty()}, std::pair{"--require", !a.output.required.empty()},
         std::pair{"--require-coverage", a.output.require_coverage}})
     if (given)
@@ -119,7 +120,10 @@ void refuse_with_shards(const AuditArguments& a) {
 }
 
 Job job_of(AuditArguments a) {
-  refuse_one_file_for_two({{"--json", a.shard.json}, {"--junit", a.output.junit}, {"--html", a.output.html}});
+  refuse_one_file_for_two({{"--json", a.shard.json},
+                           {"--junit", a.output.junit},
+                           {"--html", a.output.html},
+                           {"--save-baseline", a.output.save_baseline}});
   Job job;
   job.depths = verify::parse_depths(a.depths);
   job.sampling = parse_sample(a.sample);

@@ -22,9 +22,9 @@
 
 namespace limitcheck::cli {
 
-/// --require, --require-coverage, --junit, --waivers and --baseline: what can be done with a report alone.
+/// --require, --require-coverage, --junit, --waivers, --baseline and --save-baseline: what can be done with a report alone.
 struct ReportOptions {
-  std::string junit, waivers, baseline;
+  std::string junit, waivers, baseline, save_baseline;
   std::vector<std::string> required;
   bool require_coverage = false;
 };
@@ -106,8 +106,6 @@ verify::Plan audit_plan(const verify::Auditor& auditor, const std::vector<verify
 /// Throws data::ArgumentError unless each of these units has the rows that the plan names, each once, of its subject and
 /// mesh and depth, and each says what its numbers say.
 void require_units(const nlohmann::json& plan, const std::map<std::size_t, nlohmann::json>& results);
-/// SHA-256 of the bytes; empty: there is no such file.
-std::string file_digest(const std::string& file);
 /// Of the library or the program that a subject is; of a command the first word is the program. If that is no file, the
 /// subject's description.
 std::string subject_digest(const lc_subject& subject);

@@ -204,11 +204,6 @@ void refuse_too_many_points(const verify::AuditMesh& mesh) {
                     mesh.name, points, needed / 1e9, there / 1e9));
 }
 
-std::string file_digest(const std::string& file) {
-  std::error_code ignored;
-  return fs::is_regular_file(file, ignored) ? verify::digest(data::io::whole_content(file)) : "";
-}
-
 std::string subject_digest(const lc_subject& subject) {
   std::string file = subject.name;
   if (file.starts_with("program:")) file = file.substr(8, file.find(' ', 8) - 8);

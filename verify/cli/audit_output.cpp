@@ -16,6 +16,7 @@
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/baseline.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/report/known.h"
@@ -46,10 +47,12 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
       ->type_name("FILE");
   command
       .add_option("--baseline", a.baseline,
-                  "JSON report of an earlier audit: say what is new, worse and gone since, and exit with 1 "
-                  "only for what is new or worse")
+                  "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone "
+                  "since, and exit with 1 only for what is new or worse")
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
+  add_value(command, "--save-baseline", a.save_baseline, "FILE",
+            "Write what is wrong to FILE, as a small text for --baseline: a line for each subject and check");
 }
 
 void add_output_options(CLI::App& command, OutputArguments& a) {
@@ -228,6 +231,7 @@ bool settle(const ReportOptions& a, verify::Report& report) {
   waive(a, report);
   if (!a.baseline.empty())
     verify::compare_with_baseline(report, data::io::whole_content(a.baseline), a.baseline);
+  if (!a.save_baseline.empty()) verify::write_text(a.save_baseline, verify::to_baseline(report));
   return judged;
 }
 

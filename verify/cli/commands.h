@@ -35,7 +35,6 @@ void add_repair(CLI::App& app, int& exit_code);
 void add_hunt(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
-void add_prove(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes the manual page of
 

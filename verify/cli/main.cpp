@@ -1,133 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include <fcntl.h>
-#include <fmt/core.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cmath>
-#include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <exception>
-#include <filesystem>
 #include <memory>
-#include <new>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <sstream>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include <commit.h>  // made by the build (commit.cmake)
-#include "data/error.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/program.h"
+#include "verify/cli/prove_options.h"
 #include "verify/host/in_turns.h"
 #include "verify/host/isolation/worker.h"
-#include "verify/row/visible_text.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::cli {
-
-const CLI::Validator kFinite(
-    [](std::string& text) {
-      double value = 0;
-      return CLI::detail::lexical_cast(text, value) && !std::isfinite(value) ? text + " is no finite number"
-                                                                             : std::string();
-    },
-    "");
-
-const CLI::Validator kSeed(
-    [](std::string& text) {
-      errno = 0;
-      (void)std::strtoull(text.c_str(), nullptr, 0);
-      return errno == ERANGE ? text + " is no whole number from 0 to 18446744073709551615" : std::string();
-    },
-    "");
-
 namespace {
-
-int output_error = 0;  // errno of the first time that standard output could not be written
-
-namespace fs = std::filesystem;
-
-// A standard stream that the caller has closed would become the next file that is opened, and what is meant
-// for the one would land in the other. Opened the wrong way round, so that its use is still an error.
-void occupy_standard_streams() {
-  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(fd, F_GETFD) < 0) (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-}
-
-// If there is no standard error either, nothing can be reported.
-void complain(const std::string& text) {
-  say(stderr, "limitcheck: {}\n", text);
-}
-
-// What the buffer of standard output still holds may fail to be written: then nothing was held or found. A reader that
-// went away is no error; where SIGPIPE is not ignored it has ended the program with this exit code already.
-int after_output(int exit_code) {
-  if (exit_code == kBadInput) return exit_code;  // it has been said
-  errno = 0;
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
-  const int error = output_error != 0 ? output_error : errno;
-  if (error == EPIPE) return kSignalled + SIGPIPE;
-  complain(fmt::format("standard output cannot be written{}{}", error != 0 ? ": " : "",
-                       error != 0 ? std::strerror(error) : ""));
-  return kBadInput;
-}
-
-// Help, or what is wrong with the arguments.
-int exit_with(const CLI::App& app, const CLI::Error& error) {
-  std::ostringstream out, err;
-  const int code = app.exit(error, out, err);
-  say_text(stdout, out.str());
-  say_text(stderr, err.str());
-  return code;
-}
-
-// What to do next, for a word that is no command.
-std::string what_was_meant(const std::string& word) {
-  if (word.find('.') == std::string::npos && word.find('/') == std::string::npos)
-    return "Run with --help for more information.\n";
-  return fmt::format(
-      "To look at a mesh:             limitcheck check {0}\n"
-      "To audit all tessellators:     limitcheck audit {0}\n"
-      "To audit one of them:          limitcheck audit row-stream {0}\n"
-      "To tessellate it:              limitcheck tessellate {0} -o fine.obj\n"
-      "Run with --help for more information.\n",
-      word);
-}
-
-// Returns only if it fails.
-void become(const fs::path& path, const std::vector<std::string>& arguments) {
-  std::string program = path.string();
-  std::vector<std::string> copies = arguments;
-  std::vector<char*> list{program.data()};
-  for (std::string& argument : copies) list.push_back(argument.data());
-  list.push_back(nullptr);
-  execv(program.c_str(), list.data());
-  say(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
-}
 
 // A command that is a separate program: it needs libraries that limitcheck does without, or runs limitcheck itself.
 void add_external(CLI::App& app, int& exit_code, const std::string& name, const std::string& description) {
   CLI::App* command = app.add_subcommand(name, description);
   command->set_help_flag();  // the program has its own
   command->prefix_command();
-  command->callback([command, name, &exit_code] {
-    exit_code = kBadInput;
-    const fs::path path = find_program(name);
-    if (path.empty()) {
-      say(stderr,
-          "limitcheck: '{0}' is not here: it is no part of an installation, but of a build of the sources "
-          "with -DLIMITCHECK_BENCH=ON, as `bash verify/run.sh {0}` makes it\n",
-          name);
-    } else {
-      become(path, command->remaining());
-    }
-  });
+  command->callback([command, name, &exit_code] { exit_code = hand_over(name, command->remaining()); });
 }
 
 // Hidden: the process that isolated subjects run in.
@@ -157,8 +48,6 @@ int run(int argc, char** argv) {
   CLI::App app{
       "limitcheck: is a tessellator of subdivision surfaces right, by how much is it not, and how fast is "
       "it?"};
-  app.set_version_flag("--version", "limitcheck " LIMITCHECK_VERSION LIMITCHECK_COMMIT);
-  app.require_subcommand(1);
   app.footer(
       "First steps: limitcheck check mesh.obj; limitcheck audit mesh.obj; limitcheck COMMAND --help. "
       "Documentation: README.md, verify/subject/README.md, or share/doc/limitcheck where it is installed.\n"
@@ -174,7 +63,7 @@ int run(int argc, char** argv) {
   add_generate(app, exit_code);
   add_check(app, exit_code);
   add_repair(app, exit_code);
-  add_prove(app, exit_code);
+  add_prove(app, [&exit_code](const ProveRequest&) { exit_code = hand_over("prove"); });
   add_mutants(app, exit_code);
   add_tessellate(app, exit_code);
   add_external(app, exit_code, "reproduce",
@@ -184,72 +73,12 @@ int run(int argc, char** argv) {
   add_manual(app, exit_code);
   add_worker(app, exit_code);
 
-  // `limitcheck help COMMAND` is `limitcheck COMMAND --help`.
-  std::vector<const char*> words(argv, argv + argc);
-  if (argc > 1 && std::string_view(argv[1]) == "help") {
-    words.erase(words.begin() + 1);
-    words.push_back("--help");
-  }
-  try {
-    app.parse(static_cast<int>(words.size()), words.data());
-  } catch (const CLI::RequiredError& error) {
-    if (argc < 2) return exit_with(app, CLI::CallForHelp()), kBadInput;
-    if (app.get_subcommands().empty() && argv[1][0] != '-') {
-      say(stderr, "limitcheck: there is no command '{}'\n{}", argv[1], what_was_meant(argv[1]));
-      return kBadInput;
-    }
-    exit_with(app, error);
-    return kBadInput;
-  } catch (const CLI::ParseError& error) {
-    return exit_with(app, error) == 0 ? kHeld : kBadInput;
-  } catch (const std::bad_alloc&) {
-    std::fputs("limitcheck: out of memory\n", stderr);
-    return kBadInput;
-  } catch (const verify::HostLacks& lack) {
-    complain(lack.text());
-    return kBadInput;
-  } catch (const std::exception& error) {
-    complain(error.what());
-    return kBadInput;
-  }
-  return exit_code;
+  return run_program(app, argc, argv, exit_code);
 }
 
 }  // namespace
-
-void say_text(std::FILE* stream, const std::string& text) {
-  const std::string shown = verify::visible_text(text);
-  errno = 0;
-  if (std::fwrite(shown.data(), 1, shown.size(), stream) != shown.size() && stream == stdout &&
-      output_error == 0)
-    output_error = errno;
-}
-
-fs::path program_folder() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error)
-    throw data::ArgumentError("where this program lies cannot be found out: there is no /proc/self/exe");
-  return program.parent_path();
-}
-
-fs::path find_program(const std::string& name) {
-  const fs::path here = program_folder();
-  for (const char* folder : {".", "bench", "../libexec/limitcheck"}) {
-    fs::path path = here / folder / ("limitcheck-" + name);
-    if (access(path.c_str(), X_OK) == 0) return path;
-  }
-  return {};
-}
-
-std::string dumped(const nlohmann::ordered_json& json, int indent) {
-  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace limitcheck::cli
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not an end in the middle
-  limitcheck::cli::occupy_standard_streams();
-  return limitcheck::cli::after_output(limitcheck::cli::run(argc, argv));
+  return limitcheck::cli::run(argc, argv);
 }

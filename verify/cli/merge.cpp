@@ -14,6 +14,7 @@
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/program.h"
 #include "verify/cli/units.h"
 #include "verify/hunt/hunt_report.h"
 #include "verify/report/coverage.h"
@@ -49,6 +50,7 @@ void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
   for (const auto& [option, given] : {std::pair{"--require", !a.options.required.empty()},
                                       std::pair{"--require-coverage", a.options.require_coverage},
                                       std::pair{"--waivers", !a.options.waivers.empty()},
+                                      std::pair{"--save-baseline", !a.options.save_baseline.empty()},
                                       std::pair{"--baseline", !a.options.baseline.empty() && !of_hunt},
                                       std::pair{"--junit", !a.options.junit.empty() && !of_hunt}})
     if (given) throw data::ArgumentError(fmt::format("{} is not for parts of {}", option, program));
@@ -157,9 +159,10 @@ int verify_report(const std::string& file) {
   const nlohmann::json by = report.value("attested", nlohmann::json());
   const std::string by_program = by.is_object() ? by.value("program", "") : "";
   say("{}: whole and as it was written, by {}{}\n", file, program,
-      by_program.empty()                            ? ""
-      : by_program == file_digest("/proc/self/exe") ? " of this program"
-                                                    : fmt::format(" of another program ({})", by_program));
+      by_program.empty() ? ""
+      : by_program == file_digest("/proc/self/exe") || by_program == file_digest(find_program("prove"))
+          ? " of this program"
+          : fmt::format(" of another program ({})", by_program));
   return kHeld;
 }
 
@@ -171,8 +174,10 @@ int merge(const MergeArguments& a) {
   }
   if (a.parts.empty()) throw CLI::RequiredError("PART");
   if (a.output.empty()) throw CLI::RequiredError("--output");
-  refuse_one_file_for_two(
-      {{"-o", a.output}, {"--junit", a.options.junit}, {"--baseline", a.options.baseline}});
+  refuse_one_file_for_two({{"-o", a.output},
+                           {"--junit", a.options.junit},
+                           {"--baseline", a.options.baseline},
+                           {"--save-baseline", a.options.save_baseline}});
   const std::string program = read_file(a.parts.at(0), program_of);
   if (program == "limitcheck hunt") {
     refuse(a, program, true);
@@ -184,7 +189,11 @@ int merge(const MergeArguments& a) {
   if (program == "limitcheck audit") return merge_audit(whole, a);
   refuse(a, program, false);
   if (program == "limitcheck mutants") return report_mutants(whole, a.output);
-  if (program == "limitcheck prove") return report_proofs(whole, a.output, false);
+  if (program == "limitcheck prove") {
+    std::vector<std::string> words{"prove", "--json", a.output, "--parts"};
+    words.insert(words.end(), a.parts.begin(), a.parts.end());
+    return hand_over("prove", words);
+  }
   throw data::ArgumentError(fmt::format("{}: parts of {} are unknown here", a.parts[0], program));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// limitcheck prove: the kernels are the right linear maps, for every geometry of a topology.
+// limitcheck-prove, a program of its own that limitcheck prove hands over to: the kernels are the right linear maps, for every geometry of a topology.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,9 +13,12 @@
 #include <vector>
 
 #include "data/error.h"
+#include "data/io/whole_content.h"
 #include "data/scheme.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/program.h"
+#include "verify/cli/prove_options.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/proof/proof_set.h"
@@ -23,13 +26,6 @@
 
 namespace limitcheck::cli {
 namespace {
-
-struct Request {
-  std::string scheme = "loop", valences, kernel = "all", set = "standard";
-  int depth = verify::ProofRequest().depth;
-  bool each = false;
-  ShardArguments shard;
-};
 
 int number(const std::string& text) {
   std::size_t end = 0;
@@ -62,7 +58,7 @@ std::vector<int> valences(const std::string& text) {
   return result;
 }
 
-verify::ProofRequest as_request(const Request& request) {
+verify::ProofRequest as_request(const ProveRequest& request) {
   verify::ProofRequest what;
   const bool quads = request.scheme == "catmull-clark";
   if (quads) what.scheme = data::Scheme::kCatmullClark;
@@ -77,7 +73,7 @@ verify::ProofRequest as_request(const Request& request) {
 }
 
 // Each task of the set is a unit, and behind them the stock shapes are one.
-verify::Plan plan_of(const Request& request, const verify::ProofSet& set) {
+verify::Plan plan_of(const ProveRequest& request, const verify::ProofSet& set) {
   nlohmann::json what{{"version", LIMITCHECK_VERSION}, {"scheme", request.scheme},
                       {"valences", request.valences},  {"depth", request.depth},
                       {"kernel", request.kernel},      {"set", request.set}};
@@ -120,11 +116,9 @@ void certify(const verify::ProofSet& set, verify::Journal& journal) {
   journal.keep(unit, verify::certified_json(lines));
 }
 
-}  // namespace
-
 int report_proofs(const verify::PartReport& done, const std::string& json, bool each) {
   const nlohmann::json& plan = done.plan.what;
-  Request request;
+  ProveRequest request;
   plan.at("scheme").get_to(request.scheme), plan.at("valences").get_to(request.valences);
   data::read_value(plan.at("depth"), request.depth), plan.at("kernel").get_to(request.kernel);
   plan.at("set").get_to(request.set);
@@ -158,62 +152,30 @@ int report_proofs(const verify::PartReport& done, const std::string& json, bool 
   return report.held() && (report.complete() || !done.incomplete.empty()) ? kHeld : kFindings;
 }
 
-void add_prove(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "prove",
-      "Prove that the kernels compute the exact limit surface, whatever the geometry, topology by topology");
-  auto request = std::make_shared<Request>();
-  command->add_option("--scheme", request->scheme, "The subdivision scheme")
-      ->check(CLI::IsMember({"loop", "catmull-clark"}))
-      ->capture_default_str();
-  command->add_option("--valences", request->valences,
-                      "Interior valences: of the triples 3:12 or a list 3,4,6; 3:8 of a quad's four corners");
-  command->add_option("--depth", request->depth, "Deepest subdivision")
-      ->check(CLI::Range(0, 8))
-      ->capture_default_str();
-  command->add_option("--kernel", request->kernel, "The kernel")
-      ->check(CLI::IsMember({"sliding-window", "row-stream", "all"}))
-      ->capture_default_str();
-  command
-      ->add_option("--set", request->set,
-                   "How much: standard takes three minutes on two cores, full some twenty; sample, every "
-                   "tenth topology of the standard set, takes ten seconds")
-      ->check(CLI::IsMember({"sample", "standard", "full"}))
-      ->capture_default_str();
-  command->add_flag("--each", request->each, "A line for every topology, not for every group of them");
-  add_json_option(*command, request->shard);
-  add_shard_options(*command, request->shard, "topologies");
-  command->footer(
-      "Both sets hold every triple of valences, valences 20, 50 and 100, boundaries, the face alone and the\n"
-      "pairs of bumpy spheres, on every kernel. Maps (m) and float bounds (b) to depth, standard | full:\n"
-      "  triples    every triple, each corner facing the diagonal   m 4, every triple once 6, b 4 | m 6, b "
-      "4\n"
-      "             every triple once                               b - | 6\n"
-      "  high       valences 20, 50, 100                            m 4, b 4 | m 6, b 6\n"
-      "  boundary   around pairs of four kinds                      m 3, b 3 | m 6, b 4; the regular pair b "
-      "6\n"
-      "  alone      the face without neighbours                     m 4, b 4 | m 6, b 6\n"
-      "  spheres    all pairs of bumpy:200 | 200 800 2000 4000      m 3, b 3 | m 6, b 4\n"
-      "Maps again to 45 digits, depth 1-2 | 3, and exactly for valences 3, 4, 6, depth 2 | 5.\n"
-      "Of Catmull-Clark's scheme, maps in residues (r), rationals (e) and to 45 digits (d):\n"
-      "  quadruples every four valences in every order              r 2, e 1, d 0, b 2 | r 4, e 3, d 2, b 4\n"
-      "  deep       the regular quad and others                     r 6, e 3, d 2, b 5 | r 7, e 5, d 4, b 6\n"
-      "  high       valences 20 and 50 at every corner              r 2, e 1, d 0, b 2 | r 5, e 2, d 1, b 4\n"
-      "  boundary   boundary edges and vertices                     r 3, e 1, d 0, b 2 | r 5, e 3, d 2, b 4\n"
-      "  cuts       creases and corners                             e 2, d 0, b 2      | e 3, d 2, b 4\n"
-      "  darts      ends of creases                                 d 1, b 2           | d 3, b 4\n"
-      "  semi-sharp edges and vertices, sliding window              e 1, b 2           | e 3, b 4\n"
-      "Ctrl-C ends with the table of the proofs so far: exit code 130, or 1 if one of them failed.");
-  command->callback([request, &exit_code] {
-    const verify::ProofSet set = verify::proof_set(as_request(*request));
-    const auto work = [&](verify::Journal& journal, Progress& progress) {
-      prove_tasks(set, journal, progress);
-      certify(set, journal);
-    };
-    exit_code = run_units(request->shard, plan_of(*request, set), work, [&](const verify::PartReport& done) {
-      return report_proofs(done, request->shard.json, request->each);
-    });
+int prove(const ProveRequest& request) {
+  if (!request.parts.empty()) {
+    std::vector<verify::PartReport> parts;
+    for (const std::string& file : request.parts)
+      parts.push_back(verify::read_part(data::io::whole_content(file)));
+    return report_proofs(verify::joined(parts), request.shard.json, request.each);
+  }
+  const verify::ProofSet set = verify::proof_set(as_request(request));
+  const auto work = [&](verify::Journal& journal, Progress& progress) {
+    prove_tasks(set, journal, progress);
+    certify(set, journal);
+  };
+  return run_units(request.shard, plan_of(request, set), work, [&](const verify::PartReport& done) {
+    return report_proofs(done, request.shard.json, request.each);
   });
 }
 
+}  // namespace
 }  // namespace limitcheck::cli
+
+int main(int argc, char** argv) {
+  using namespace limitcheck::cli;
+  CLI::App app{"limitcheck: proofs that kernels compute the exact limit surface"};
+  int exit_code = kHeld;
+  add_prove(app, [&exit_code](const ProveRequest& request) { exit_code = prove(request); });
+  return run_program(app, argc, argv, exit_code);
+}

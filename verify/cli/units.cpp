@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "data/error.h"
-#include "verify/cli/audit.h"
+#include "data/io/whole_content.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
@@ -108,6 +108,11 @@ void write_part(const ShardArguments& a, const verify::Journal& journal, verify:
   part.plan = journal.plan();
   part.results = journal.results();
   verify::write_text(a.json, verify::to_json(part));
+}
+
+std::string file_digest(const std::string& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) ? verify::digest(data::io::whole_content(file)) : "";
 }
 
 std::string attested(std::string report, const nlohmann::json& plan) {

@@ -59,12 +59,14 @@ struct JobCounters {
 int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show);
 
+/// SHA-256 of the bytes; empty: there is no such file.
+std::string file_digest(const std::string& file);
+
 /// The report, a JSON object, with what it is of in front ("attested": the digests of this program, of the plan and, as
 /// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/shard.h).
 std::string attested(std::string report, const nlohmann::json& plan);
 
-/// The reports of these commands; to `json` they go as with --json. Return the exit code.
+/// The report of limitcheck mutants; to `json` it goes as with --json. Returns the exit code.
 int report_mutants(const verify::PartReport& done, const std::string& json);
-int report_proofs(const verify::PartReport& done, const std::string& json, bool each);
 
 }  // namespace limitcheck::cli

@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <tuple>
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
@@ -54,41 +52,6 @@ nlohmann::json parse(const std::string& text) try {
   return data::parse_untrusted(text);
 } catch (const data::ArgumentError& error) {
   throw data::ArgumentError(fmt::format("waivers: {}", error.what()));
-}
-
-using Key = std::tuple<std::string, std::string, Case>;  // subject, check
-Key key_of(const Result& r) {
-  return {r.subject, r.check, case_of(r)};
-}
-
-std::map<Key, Result> baseline_rows(const std::string& text, const std::string& file) try {
-  const nlohmann::json json = data::parse_untrusted(text);
-  if (!json.is_object() || json.value("program", nlohmann::json()) != "limitcheck audit" ||
-      !json.contains("results") || !json["results"].is_array())
-    throw data::ArgumentError(
-        fmt::format("--baseline {}: no report that limitcheck audit --json wrote", file));
-  std::map<Key, Result> rows;
-  for (const nlohmann::json& row : json["results"]) {
-    for (const char* key : {"subject", "mesh", "check", "status", "count", "of", "worst"}) (void)row.at(key);
-    Result known = reported_row(row);
-    rows[key_of(known)] = std::move(known);
-  }
-  return rows;
-} catch (const nlohmann::json::exception& error) {
-  throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
-}
-
-bool is_worse(const Result& now, const Result& before) {
-  if (now.status != Status::kFinding)
-    return before.status == Status::kFinding || before.status == Status::kWaived;
-  // Of a finding, no number is the largest.
-  const auto worst = [](const Result& r) {
-    return r.worst.value_or(std::numeric_limits<double>::infinity());
-  };
-  const auto share = [](const Result& r) {
-    return static_cast<double>(r.bad) / static_cast<double>(r.of > 0 ? r.of : 1);
-  };
-  return worst(now) > kWorse * worst(before) || share(now) > kWorse * share(before);
 }
 
 }  // namespace
@@ -192,33 +155,6 @@ std::string version_in(const std::string& description) {
   static const std::regex pattern("[0-9]+(\\.[0-9]+)*");
   std::smatch match;
   return std::regex_search(description, match, pattern) ? match.str() : "";
-}
-
-void compare_with_baseline(Report& report, const std::string& json, const std::string& file) {
-  const std::map<Key, Result> before = baseline_rows(json, file);
-  Report::Changes changes;
-  changes.baseline = file;
-  std::vector<std::string> appeared, worse, gone;
-  for (const Result& r : report.results) {
-    const auto found = before.find(key_of(r));
-    const bool was =
-        found != before.end() && (is_bad(found->second) || found->second.status == Status::kWaived);
-    const std::string name = fmt::format("{} / {} on {}", r.subject, r.check, case_name(report, r));
-    if (is_bad(r) && !was)
-      appeared.push_back("new: " + name);
-    else if (is_bad(r) && is_worse(r, found->second))
-      worse.push_back("worse: " + name);
-    else if (is_bad(r))
-      ++changes.same;
-    else if (was && (r.status == Status::kHeld || r.status == Status::kQualityWarning))
-      gone.push_back("gone: " + name);
-  }
-  changes.appeared = static_cast<std::int64_t>(appeared.size());
-  changes.worse = static_cast<std::int64_t>(worse.size());
-  changes.gone = static_cast<std::int64_t>(gone.size());
-  for (auto* list : {&appeared, &worse, &gone})
-    changes.named.insert(changes.named.end(), list->begin(), list->end());
-  report.changes = std::move(changes);
 }
 
 }  // namespace limitcheck::verify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Findings that are known: accepted for a while, or there in an earlier report.
+// Findings that are known and accepted for a while.
 #pragma once
 
 #include <map>
@@ -35,16 +35,5 @@ void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
 /// The first number with a point in a description: "OpenSubdiv
 /// 3.5 Far: ..." gives "3.5"; "" if there is none.
 std::string version_in(const std::string& description);
-
-/// Compares the rows of a report with those of an earlier one, `json` as --json writes it, row by row of the
-/// same subject, mesh, depths and check, and fills in report.changes:
-///   new     a finding or breakdown now; not one in the baseline, or not looked at there
-///   worse   one in both, and now it breaks down, or its worst value or the share that is wrong is more than
-///           kWorse times that of the baseline
-///   gone    one in the baseline, and it held now
-/// Throws data::ArgumentError: `json` is no report.
-///   file   what the baseline is called
-inline constexpr double kWorse = 1.1;
-void compare_with_baseline(Report& report, const std::string& json, const std::string& file);
 
 }  // namespace limitcheck::verify

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
 #include "verify/relations/relations.h"
+#include "verify/report/baseline.h"
 #include "verify/report/coverage.h"
 #include "verify/report/forms.h"
 #include "verify/report/known.h"
@@ -45,6 +47,49 @@ Waiver waiver() {
            .reason = "known",
            .expires = "2027-01-31"};
   return w;
+}
+
+TEST(Baseline, AsATextTellsWhatIsNewWorseAndGoneBySubjectAndCheck) {
+  const Report then = report();
+  const std::string text = to_baseline(then);
+  EXPECT_TRUE(says(text, "\npositions 2 0.001 mine\n")) << text;
+  EXPECT_TRUE(says(text, "\npositions 2 0.001 mine:level=2\n")) << text;
+  const auto changes = [&](const Report& now) {
+    Report compared = now;
+    compare_with_baseline(compared, text, "known.txt");
+    const auto& c = *compared.changes;
+    EXPECT_EQ(compared.held(), c.appeared + c.worse == 0);
+    return std::array{c.appeared, c.worse, c.gone, c.same};
+  };
+  using Counts = std::array<std::int64_t, 4>;
+  EXPECT_EQ(changes(then), (Counts{0, 0, 0, 2}));
+  Report other_mesh = then;
+  other_mesh.results[0].mesh = "fan:5";
+  EXPECT_EQ(changes(other_mesh), (Counts{0, 0, 0, 2})) << "meshes are no part of it";
+  Report larger = then;
+  larger.results[0].worst = 1.2e-3;
+  EXPECT_EQ(changes(larger), (Counts{0, 1, 0, 1}));
+  Report more = then;
+  more.results.push_back(more.results[0]);
+  EXPECT_EQ(changes(more), (Counts{0, 1, 0, 1}));
+  Report another = then;
+  another.results[0].check = "normals";
+  EXPECT_EQ(changes(another), (Counts{1, 0, 0, 2}));
+  Report better = then;
+  for (Result& r : better.results)
+    if (r.subject == "mine") r.status = Status::kHeld, r.bad = 0;
+  EXPECT_EQ(changes(better), (Counts{0, 0, 1, 1}));
+  Report elsewhere = then;
+  std::erase_if(elsewhere.results, [](const Result& r) { return r.subject == "mine"; });
+  EXPECT_EQ(changes(elsewhere), (Counts{0, 0, 0, 1})) << "what was not looked at is not gone";
+  for (const char* wrong : {"positions 0 - mine", "positions 2 mine", "positions 2 1x mine", "positions"}) {
+    Report now = then;
+    EXPECT_THROW(compare_with_baseline(now, "limitcheck baseline 1\n" + std::string(wrong) + "\n", "k.txt"),
+                 data::ArgumentError)
+        << wrong;
+  }
+  Report now = then;
+  EXPECT_THROW(compare_with_baseline(now, text + "positions 2 0.001 mine\n", "k.txt"), data::ArgumentError);
 }
 
 TEST(Waivers, CoverASubjectACheckAndAShapeAndNothingElse) {

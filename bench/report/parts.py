@@ -3,13 +3,12 @@
 import collections
 import json
 import pathlib
-import shutil
 
+import node_tools
 import progress
 
 HERE = pathlib.Path(__file__).resolve().parent
 SPECIFICATIONS = HERE.parents[1] / "papers" / "mueller-havemann-2000" / "figures"
-NO_NODE = "{} is not installed (apt-get install nodejs npm)"
 
 
 class PartError(ValueError):
@@ -55,18 +54,11 @@ class Workshop:
         self.run([self.bench / "reproduction" / "reproduction", "-o", self.folder, *arguments, *(["--quick"] if self.quick else [])])
 
     def node(self):
-        """Node.js with the packages, installed on first use: those of package-lock.json, none of whose scripts is run."""
-        for program in ("node", "npm"):
-            if not shutil.which(program):
-                raise PartError(NO_NODE.format(program))
-        needed = json.loads((HERE / "package.json").read_text(encoding="utf-8"))["dependencies"]
-        if not all((HERE / "node_modules" / name / "package.json").is_file() for name in needed):
-            try:
-                self.run(["npm", "ci", "--prefix", HERE, "--ignore-scripts", "--omit=dev", "--no-audit", "--no-fund",
-                          "--fetch-retries=1", "--fetch-retry-mintimeout=1000", "--fetch-timeout=30000"])
-            except PartError as error:
-                raise PartError(f"npm could not install {', '.join(needed)} (is there a network?): {error}") from error
-        return "node"
+        """The folder of our scripts for Node.js, with the packages that they need."""
+        try:
+            return node_tools.prepare(self.bench, self.run)
+        except node_tools.NodeError as error:
+            raise PartError(str(error)) from error
 
 
 def picture(name):
@@ -76,11 +68,11 @@ def picture(name):
 def chart(name, source, key):
     """An SVG of the specification papers/.../NAME.vl.json and the rows of a result."""
     def draw(shop):
-        node = shop.node()
+        tools = shop.node()
         rows = shop.folder / f"{name}-rows.json"
         try:
             rows.write_text(json.dumps(json.loads((shop.folder / f"{source}.json").read_text(encoding="utf-8"))[key]), encoding="utf-8")
-            shop.run([node, HERE / "render.mjs", SPECIFICATIONS / f"{name}.vl.json", f"{source}={rows}"], f"{name}.svg")
+            shop.run(["node", tools / "render.mjs", SPECIFICATIONS / f"{name}.vl.json", f"{source}={rows}"], f"{name}.svg")
         finally:
             rows.unlink(missing_ok=True)
     return draw
@@ -176,7 +168,7 @@ def places(shop, findings):
 
 
 def view(shop):
-    node = shop.node()
+    tools = shop.node()
     shop.reproduction("model")
     shop.reproduction("maps", *(word for m in shop.maps for word in ("--map", m)))
     audited = shop.folder / "audit.json"
@@ -187,7 +179,7 @@ def view(shop):
     shop.reproduction("shapes", *(word for name in names for word in ("--mesh", name)))
     (shop.folder / "witnesses.json").write_text(json.dumps(places(shop, findings)), encoding="utf-8")
     partial = shop.folder / "viewer.js.partial"
-    shop.run([node, HERE / "bundle.mjs", HERE / "viewer.mjs", partial])
+    shop.run(["node", tools / "bundle.mjs", tools / "viewer.mjs", partial])
     partial.replace(shop.folder / "viewer.js")
 
 

@@ -6,12 +6,14 @@ import pathlib
 import re
 import statistics
 import subprocess
+import sys
 import tempfile
 
 import decide
 import measure
 
-REPORT = pathlib.Path(__file__).resolve().parent.parent / "report"
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "report"))
+import node_tools  # noqa: E402
 
 PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
@@ -130,16 +132,22 @@ def specification(panels, order):
             "concat": [panel(name, points, order) for (_, name), points in sorted(panels.items())]}
 
 
+def run(command):
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise node_tools.NodeError(done.stderr.strip())
+    return done.stdout
+
+
 def draw(spec):
-    if not (REPORT / "node_modules").is_dir():
-        raise measure.MeasureError(f"drawing needs Vega-Lite: npm ci --ignore-scripts --prefix {REPORT}")
     with tempfile.NamedTemporaryFile("w", suffix=".vl.json") as file:
         json.dump(spec, file)
         file.flush()
-        done = subprocess.run(["node", str(REPORT / "render.mjs"), file.name], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise measure.MeasureError(done.stderr.strip())
-    return done.stdout
+        try:
+            tools = node_tools.prepare(pathlib.Path(sys.argv[0]).absolute().parent, run)
+            return run(["node", tools / "render.mjs", file.name])
+        except node_tools.NodeError as error:
+            raise measure.MeasureError(str(error)) from error
 
 
 def fact(value):

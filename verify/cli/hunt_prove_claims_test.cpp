@@ -160,7 +160,7 @@ TEST_F(ClaimsCommand, WithoutItsTestProgramsNothingIsConfirmed) {
 }
 
 TEST_F(ClaimsCommand, ACommandThatAnInstallationLacksSaysWhereItIs) {
-  for (const std::string command : {"bench", "reproduce"}) {
+  for (const std::string command : {"bench", "prove", "reproduce"}) {
     const Outcome o = shell("cp '" LIMITCHECK_PROGRAM "' alone && ./alone " + command, 2);
     EXPECT_TRUE(says(o.err, "`bash verify/run.sh " + command + "` makes it"));
   }

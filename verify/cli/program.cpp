@@ -183,7 +183,8 @@ int hand_over(const std::string& name, const std::vector<std::string>& arguments
     become(path, arguments);
   } else {
     say(stderr,
-        "limitcheck: limitcheck-{0} is not here: `bash verify/run.sh {0}` builds it from the sources\n",
+        "limitcheck: '{0}' is not here: a build of the sources has it, as `bash verify/run.sh {0}` makes "
+        "it\n",
         name);
   }
   return kBadInput;

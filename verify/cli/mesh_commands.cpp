@@ -12,6 +12,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/io/polygon_soup.h"
+#include "data/io/text_scanner.h"
 #include "data/io/write.h"
 #include "data/summary.h"
 #include "verify/cli/commands.h"
@@ -213,11 +214,28 @@ int check(const CheckArguments& a) {
   return sorted(found.faults).faults.empty() ? kHeld : kFindings;
 }
 
+// In diagonals: what lies farther apart is not one vertex that was computed twice.
+constexpr double kLargestDistance = 0.01;
+
 struct RepairArguments {
-  std::string file, output;
+  std::string file, output, weld;
   data::ReadOptions mesh;
   verify::RepairOptions options;
 };
+
+// `--weld scan.obj`: the word behind --weld is the mesh where it is no number.
+void take_distance(RepairArguments& a) {
+  const auto distance = a.weld.empty() ? 0.0 : data::io::to_double(a.weld);
+  if (!distance && a.file.empty()) {
+    a.file = a.weld;
+  } else if (!distance || !(*distance >= 0 && *distance <= kLargestDistance)) {
+    throw CLI::ValidationError("--weld",
+                               fmt::format("{} is no number from 0 to {}", a.weld, kLargestDistance));
+  } else {
+    a.options.weld_distance = *distance;
+  }
+  if (a.file.empty()) throw CLI::RequiredError("MESH");
+}
 
 int repair(const RepairArguments& a) {
   const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
@@ -270,12 +288,15 @@ void add_repair(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
       "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
-  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
+  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file");
   command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
       ->required()
       ->type_name("FILE");
-  command->add_flag("--weld", a->options.weld,
-                    "Merge vertices at exactly the same place, which closes seams");
+  auto* weld = command->add_option("--weld", a->weld,
+                                   "Merge vertices at exactly the same place, which closes seams; with EPS, "
+                                   "at most 0.01, also border vertices at "
+                                   "most EPS diagonals of the bounding box apart");
+  weld->expected(0, 1)->type_name("[EPS]");
   add_mesh_options(*command, a->mesh);
   command->footer(
       "Drops faces with a repeated corner, faces given twice and vertices that no face names; orients "
@@ -284,7 +305,11 @@ void add_repair(CLI::App& app, int& exit_code) {
       "unless --triangulate is given.\n"
       "Exit codes: 0 the result can be audited, 1 faults are left (they are listed), 2 bad usage, or a file "
       "that cannot be read or written.");
-  command->callback([a, &exit_code] { exit_code = repair(*a); });
+  command->callback([a, weld, &exit_code] {
+    a->options.weld = weld->count() > 0;
+    take_distance(*a);
+    exit_code = repair(*a);
+  });
 }
 
 }  // namespace limitcheck::cli

@@ -188,6 +188,18 @@ TEST_F(RepairCommand, MakesAMeshThatAnAuditTakes) {
   EXPECT_TRUE(says(run("repair fixed.obj -o again.obj").out, "\nnothing had to be changed\n"));
 }
 
+TEST_F(RepairCommand, WeldsTheBorderWithinADistanceIfItIsGivenOne) {
+  write("strip.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e-16 0 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 0 1e-16 1\n"
+        "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\n");
+  EXPECT_TRUE(says(run("repair --weld 1e-6 strip.obj -o a.obj", 0).out, "6 vertices, 3 faces"));
+  for (const char* plain : {"repair --weld strip.obj -o b.obj", "repair strip.obj -o b.obj --weld"})
+    EXPECT_TRUE(says(run(plain, 0).out, "8 vertices, 3 faces")) << plain;
+  expect_refused("repair",
+                 {"strip.obj -o b.obj --weld nan", "strip.obj -o b.obj --weld 1", "-o b.obj --weld 1e-6",
+                  "strip.obj -o b.obj --weld -1", "strip.obj -o b.obj --weld much"});
+}
+
 TEST_F(RepairCommand, SaysWhatItCannotMend) {
   // Two triangles back to back: three interior vertices of valence 2.
   write("pillow.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");

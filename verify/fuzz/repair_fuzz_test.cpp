@@ -14,6 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FuzzedDataProvider bytes(data, size);
   data::io::PolygonSoup soup;
   const bool weld = bytes.ConsumeBool();
+  const double distance = bytes.ConsumeIntegralInRange(0, 40) / 400.0;
   const int vertices = bytes.ConsumeIntegralInRange(1, 40);
   const int places = bytes.ConsumeIntegralInRange(1, vertices);  // fewer: some vertices lie at one place
   for (int v = 0; v < vertices; ++v) {
@@ -27,7 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int n = bytes.ConsumeIntegralInRange(0, 7); n > 0; --n) soup.corners.push_back(vertex());
     soup.close_polygon();
   }
-  const std::string broken = verify::broken_property(soup, {.weld = weld});
+  const std::string broken = verify::broken_property(soup, {.weld = weld, .weld_distance = distance});
   if (!broken.empty()) {
     std::fprintf(stderr, "%s\n", broken.c_str());
     std::abort();

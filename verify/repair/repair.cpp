@@ -16,6 +16,7 @@
 #include <tuple>
 #include <utility>
 
+#include "data/near_on_border.h"
 #include "data/validate.h"
 
 namespace limitcheck::verify {
@@ -74,18 +75,21 @@ class Repair {
 
   /// Whether there is nothing to do but for tags, found in a tenth of the time that it takes to do nothing.
   bool is_valid() const {
-    data::ControlMesh mesh;
-    if (points_.size() > kMostIndices) return false;
-    for (const Point& p : points_) mesh.positions.push_back({p.x(), p.y(), p.z()});
-    std::vector<std::int32_t> face;
-    for (const Polygon& p : polygons_) {
-      face.assign(p.begin(), p.end());
-      mesh.faces.push_back(face);
-    }
-    return data::validate(mesh, data::Scheme::kCatmullClark).empty();
+    return points_.size() <= kMostIndices && data::validate(mesh(), data::Scheme::kCatmullClark).empty();
   }
 
-  void weld() {
+  /// Whether vertices at different places became one: they leave fewer places, so it is not so for ever.
+  bool weld(double distance) {
+    weld_equal();
+    bool any = false;
+    while (distance > 0 && weld_near(distance)) {
+      any = true;
+      weld_equal();  // where faces went, others lie on the border
+    }
+    return any;
+  }
+
+  void weld_equal() {
     // Only finite points have an order, so unused vertices are dropped first.
     drop_unused();
     const std::vector<Point> before = points_;
@@ -95,6 +99,20 @@ class Repair {
     move_tags([&](std::size_t v) { return v < before.size() ? number.at(before[v]) : v; });
     note("welded", static_cast<std::int64_t>(merged), "vertex", "that lay exactly where another one does");
     drop_repeated_corners("whose corners fell together when vertices were welded");
+  }
+
+  bool weld_near(double distance) {
+    if (points_.size() > kMostIndices) return false;
+    const std::vector<std::int32_t> to = data::joined_on_border(mesh(), distance);
+    std::int64_t merged = 0;
+    for (std::size_t v = 0; v < to.size(); ++v) merged += to[v] != static_cast<std::int32_t>(v);
+    for (Polygon& p : polygons_)
+      for (std::size_t& v : p) v = static_cast<std::size_t>(to[v]);
+    move_tags([&](std::size_t v) { return v < to.size() ? static_cast<std::size_t>(to[v]) : v; });
+    note("welded", merged, "vertex", "on the border that lay close to another one there");
+    drop_repeated_corners("whose corners fell together when vertices were welded");
+    drop_unused(false);
+    return merged > 0;
   }
 
   void drop_duplicates() {
@@ -222,6 +240,17 @@ class Repair {
   }
 
  private:
+  data::ControlMesh mesh() const {
+    data::ControlMesh mesh;
+    for (const Point& p : points_) mesh.positions.push_back({p.x(), p.y(), p.z()});
+    std::vector<std::int32_t> face;
+    for (const Polygon& p : polygons_) {
+      face.assign(p.begin(), p.end());
+      mesh.faces.push_back(face);
+    }
+    return mesh;
+  }
+
   using Tag = data::io::PolygonSoup::SharpTag;
   static constexpr std::string_view kNoPlace = "of no edge or vertex, or of one that has a larger one";
   static constexpr std::size_t kMostIndices = std::numeric_limits<std::int32_t>::max();
@@ -324,10 +353,11 @@ class Repair {
 Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options) {
   Repair work(soup);
   // Where faces went or became one, others may have the corners of another, or a seam may close that was cut
-  // before: it ends, as each further pass begins with fewer faces.
-  for (std::size_t before = 0; before != work.faces();) {
+  // before: it ends, as each further pass begins with fewer faces or places.
+  bool joined = false;
+  for (std::size_t before = 0; joined || before != work.faces();) {
     before = work.faces();
-    if (options.weld) work.weld();
+    joined = options.weld && work.weld(options.weld_distance);
     if (work.is_valid()) break;
     work.drop_duplicates();
     work.orient();

@@ -12,6 +12,9 @@ namespace limitcheck::verify {
 
 struct RepairOptions {
   bool weld = false;  // vertices that lie at exactly the same place become one: seams close
+  // Besides, border vertices that lie at most so many diagonals of the bounding box apart, or are connected by others
+  // that do, become the first of them. Only where `weld` is set.
+  double weld_distance = 0;
 };
 
 /// What was done, one line for each kind of change: "dropped 3 faces with a repeated corner".

@@ -21,7 +21,7 @@ cd "$top"
 echo "Auditing the built-in tessellators (two minutes on two cores) ..." >&2
 known=verify/peers/known.txt
 code=0
-build/release/limitcheck audit --baseline "$known" || code=$?
+build/release/limitcheck audit --report build/report --baseline "$known" || code=$?
 if [[ $code -gt 1 ]]; then
   echo "Exit code $code: the audit did not run to its end." >&2
   exit "$code"

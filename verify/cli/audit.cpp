@@ -7,6 +7,7 @@
 #include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "data/bounding_box.h"
 #include "data/error.h"
@@ -25,9 +26,9 @@
 namespace limitcheck::cli {
 namespace {
 
-constexpr const char* kReportFile = "build/report/audit.json";
-constexpr const char* kPageFile = "build/report/audit.html";
-constexpr const char* kTextFile = "build/report/audit.txt";
+std::string report_file(const AuditArguments& a, const char* type) {
+  return a.report.empty() ? "" : a.report + "/audit." + type;
+}
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
@@ -117,6 +118,19 @@ void refuse_with_shards(const AuditArguments& a) {
       throw data::ArgumentError(
           fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
   if (a.must_refuse) throw data::ArgumentError("--must-refuse has no shards");
+  if (!a.report.empty()) throw data::ArgumentError("--report needs the whole report, and a shard is a part");
+}
+
+// With finished files what has no effect there is refused, whatever options there will be: nobody is to think that
+// it was done.
+void refuse_with_files(const CLI::App& command) {
+  static const std::set<std::string> kOfBoth{"--scheme",   "--triangulate",   "--threads", "--json",
+                                             "--details",  "--require",       "--junit",   "--waivers",
+                                             "--baseline", "--save-baseline", "--html",    "--witnesses"};
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && option->get_group() != kFilesGroup && !kOfBoth.contains(option->get_name()))
+      throw data::ArgumentError(
+          fmt::format("{} has no effect on finished tessellations (--tessellation)", option->get_name()));
 }
 
 Job job_of(AuditArguments a) {
@@ -155,11 +169,12 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
 
 // Below the overview.
 std::string where_the_rest_is(const Job& job) {
-  if (job.whole)
+  const AuditArguments& a = job.arguments;
+  if (!a.report.empty())
     return fmt::format(
         "{} shows the causes in a browser; {} has all tables, and each cause with the command that shows it; "
         "{} is for programs.\n",
-        kPageFile, kTextFile, kReportFile);
+        report_file(a, "html"), report_file(a, "txt"), report_file(a, "json"));
   return "--details prints all tables. --explain CHECK says what a check means.\n";
 }
 
@@ -198,14 +213,14 @@ std::exception_ptr write_files(const Job& job, const Audited& audited, const std
                   verify::receipts_json(report.receipts)});
     else if (!a.shard.json.empty() && a.shard.json != "-")
       verify::write_text(a.shard.json, json);
-    if (job.whole && !shard) {
-      verify::write_text(kReportFile, json);
-      verify::write_text(kTextFile,
+    if (!a.report.empty()) {
+      verify::write_text(report_file(a, "json"), json);
+      verify::write_text(report_file(a, "txt"),
                          "Root causes\n\n" +
                              verify::causes_in_full(report, verify::causes(report), a.output.level) +
                              "Tables\n\n" + verify::to_table(report, false));
     }
-    for (const std::string& html : {a.output.html, std::string(job.whole && !shard ? kPageFile : "")})
+    for (const std::string& html : {a.output.html, report_file(a, "html")})
       if (!html.empty()) write_html(html, audited, a.output.level);
     write_witnesses(a.output, audited);
     if (journal != nullptr && done) journal->remove();
@@ -240,7 +255,7 @@ int audit(const Job& job) {
       job.level());
   auditor.leave_what_is_interrupted();
   ShardArguments kept = a.shard;
-  if (kept.json.empty() && job.whole) kept.json = kReportFile;
+  if (kept.json.empty()) kept.json = report_file(a, "json");
   kept.check();
   const bool reports = !kept.json.empty(), keeps = reports && !a.must_refuse && kept.json != "-";
   verify::Plan plan{"limitcheck audit", nlohmann::json::object()};
@@ -315,8 +330,8 @@ void add_audit(CLI::App& app, int& exit_code) {
       "SUBJECT", a->subject,
       fmt::format(
           "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
-          "program:COMMAND. Without it: all on the default meshes, and the report in {}. Built in: {}",
-          kReportFile, built_in_names()));
+          "program:COMMAND. Without it: all on the default meshes. Built in: {}",
+          built_in_names()));
   command->add_option(
       "MESH", a->meshes,
       "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "
@@ -353,6 +368,8 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->add_flag("--must-refuse", a->must_refuse,
                     "The MESHes are files of broken meshes, which are handed over as they are: the subject "
                     "must refuse them");
+  add_value(*command, "--report", a->report, "DIR",
+            "Write the report in all its forms to DIR: audit.html, audit.txt and audit.json");
   add_output_options(*command, a->output);
   add_subject_options(*command, a->from);
   auto files = std::make_shared<FilesArguments>();
@@ -363,11 +380,10 @@ void add_audit(CLI::App& app, int& exit_code) {
       "exit code 130 (SIGTERM 143, SIGHUP 129); a second Ctrl-C ends it at once.");
   command->callback([=, &exit_code] {
     check_json(a->shard.json);
+    if (explained(a->output)) return;
     a->plan = depth->count() + depths->count() + sample->count() == 0;
-    if (!files->tessellation.empty())
-      exit_code = audit_files(*files, a->mesh, a->shard.json, a->threads);
-    else
-      exit_code = explained(a->output) ? kHeld : audit(job_of(*a));
+    if (!files->tessellations.empty()) refuse_with_files(*command);
+    exit_code = files->tessellations.empty() ? audit(job_of(*a)) : audit_files(*files, *a);
   });
 }
 

@@ -69,6 +69,7 @@ struct AuditArguments {
   int exhaustive = 0;  // every neighbourhood of so many faces; 0: it is not asked for
   int threads = 0;
   ShardArguments shard;  // with the file of the report
+  std::string report;    // folder of the report in all its forms; empty: none
   bool each_mesh = false, details = false, must_refuse = false;
   OutputArguments output;
   SubjectArguments from;
@@ -129,13 +130,16 @@ void write_html(const std::string& file, const Audited& audited, const std::stri
 
 /// `limitcheck audit --control cage.obj --tessellation out.ply`: the part of the audit that needs no program.
 struct FilesArguments {
-  std::string control, tessellation, provenance, per_vertex;
+  std::string control, provenance, per_vertex;
+  std::vector<std::string> tessellations;  // files, and folders of them
   verify::FilesOptions options;
 };
 /// Adds the options to the audit command, in a group of their own.
 void add_files_options(CLI::App& audit, FilesArguments& files);
-/// Runs it. `json` as in the audit command; returns the exit code.
-int audit_files(const FilesArguments& files, const data::ReadOptions& mesh, const std::string& json,
-                int threads);
+/// The group of these options in --help.
+inline constexpr const char* kFilesGroup = "A finished tessellation (instead of SUBJECT)";
+/// Runs it with what the audit command was given besides: meshes, --json, --threads, --details and the outputs, each
+/// file a subject of the report. Returns the exit code.
+int audit_files(const FilesArguments& files, const AuditArguments& arguments);
 
 }  // namespace limitcheck::cli

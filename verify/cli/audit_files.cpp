@@ -6,10 +6,14 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "data/error.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
@@ -17,30 +21,59 @@
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
+#include "verify/row/visible_text.h"
 
 namespace limitcheck::cli {
 namespace {
 
 // For the attestation: which files were read.
-nlohmann::json plan_of(const FilesArguments& files) {
-  return {{"stamps", nlohmann::json::array({{files.tessellation, file_digest(files.tessellation)}})},
+nlohmann::json plan_of(const FilesArguments& files, const std::vector<std::string>& subjects) {
+  nlohmann::json stamps = nlohmann::json::array();
+  for (const std::string& file : subjects) stamps.push_back({file, file_digest(file)});
+  return {{"stamps", stamps},
           {"meshes", nlohmann::json::array({{files.control, file_digest(files.control)}})},
           {"provenance", file_digest(files.provenance)},
           {"tolerance", files.options.tolerance}};
 }
 
+// The files that are named and those of folders, in the order of their names, each once.
+std::vector<std::string> files_of(const FilesArguments& files) {
+  namespace fs = std::filesystem;
+  static const std::set<std::string> kTypes{".ply", ".obj", ".off", ".stl", ".gltf", ".glb"};
+  std::vector<std::string> all;
+  for (const std::string& name : files.tessellations) {
+    std::vector<std::string> here{name};
+    if (fs::is_directory(name)) {
+      here.clear();
+      for (const auto& entry : fs::directory_iterator(name))
+        if (kTypes.contains(entry.path().extension())) here.push_back(entry.path());
+      if (here.empty()) throw data::ArgumentError(name + ": there is no tessellation in this folder");
+      std::sort(here.begin(), here.end());
+    }
+    for (std::string& file : here)
+      if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(std::move(file));
+  }
+  if (all.size() > 1 && !(files.provenance.empty() && files.per_vertex.empty()))
+    throw data::ArgumentError("--provenance and --per-vertex are of one file, and several are named");
+  return all;
+}
+
 }  // namespace
 
 void add_files_options(CLI::App& audit, FilesArguments& files) {
-  const char* group = "A finished tessellation (instead of SUBJECT)";
+  const char* group = kFilesGroup;
   verify::FilesOptions& options = files.options;
   auto* control = audit.add_option("--control", files.control, "Control mesh: a file or a generator's name")
                       ->group(group);
   auto* tessellation =
       audit
-          .add_option("--tessellation", files.tessellation,
-                      "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or GLB; larger polygons "
+          .add_option("--tessellation", files.tessellations,
+                      "A tessellation of it by any program: PLY, OBJ, OFF, STL, glTF or GLB, or a folder of "
+                      "such files; may be repeated, each file is a subject of the report. Larger polygons "
                       "count as fans of triangles from their first corner")
+          ->take_all()
+          ->expected(1)
+          ->allow_extra_args(false)
           ->group(group)
           ->needs(control);
   control->needs(tessellation);
@@ -78,68 +111,91 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
                           "Write distance, normal angle and parameter of every vertex to this CSV file"));
 }
 
-int audit_files(const FilesArguments& files, const data::ReadOptions& mesh, const std::string& json,
-                int threads) {
+int audit_files(const FilesArguments& files, const AuditArguments& a) {
   const tbb::global_control limit(
       tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()));
-  refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}});
+      static_cast<std::size_t>(a.threads > 0 ? a.threads : tbb::info::default_concurrency()));
+  const std::string& json = a.shard.json;
+  refuse_one_file_for_two({{"--json", json},
+                           {"--per-vertex", files.per_vertex},
+                           {"--junit", a.output.junit},
+                           {"--html", a.output.html},
+                           {"--save-baseline", a.output.save_baseline}});
   const auto start = std::chrono::steady_clock::now();
-  const OpenedMesh opened = open_control_mesh(files.control, mesh);
+  const OpenedMesh opened = open_control_mesh(files.control, a.mesh);
   const data::ControlMesh& control = opened.mesh;
   verify::require_range(files.control, control, true);
-  verify::FileTessellation tessellation = verify::read_tessellation(files.tessellation);
-  std::vector<verify::ProvenanceRow> provenance;
-  if (!files.provenance.empty())
-    provenance =
-        verify::read_provenance(files.provenance, static_cast<std::int64_t>(tessellation.positions.size()),
-                                control, opened.chosen.scheme);
+  const std::string cut = opened.chosen.cut > 0 ? word(a.mesh.polygons) : "";
   verify::FilesOptions options = files.options;
   options.scheme = opened.chosen.scheme;
-
-  Progress progress;
-  const verify::InterruptGuard guard;
-  const auto audit = verify::audit_files(files.control, control, std::move(tessellation), provenance, options,
-                                         [&](const std::string& what, std::size_t done, std::size_t total) {
-                                           progress.show(done, total, what);
-                                           verify::end_if_interrupted();
-                                         });
-  progress.clear();
-  const int signal = audit.gave_up ? verify::interrupted() : 0;
 
   verify::Report report;
   report.version = LIMITCHECK_VERSION;
   report.depths = "file";
   report.meshes.push_back({files.control, static_cast<std::int64_t>(control.positions.size()),
-                           static_cast<std::int64_t>(control.faces.size()), opened.chosen.scheme,
-                           opened.chosen.cut > 0 ? word(mesh.polygons) : ""});
-  report.subjects.push_back(files.tessellation);
-  report.results = audit.results;
+                           static_cast<std::int64_t>(control.faces.size()), opened.chosen.scheme, cut});
+  report.subjects = files_of(files);
+  std::string about = scheme_line({opened.chosen}, a.mesh), per_vertex;
+  Progress progress;
+  const verify::InterruptGuard guard;
+  int signal = 0;
+  for (const std::string& file : report.subjects) {
+    verify::FileTessellation tessellation = verify::read_tessellation(file);
+    std::vector<verify::ProvenanceRow> provenance;
+    if (!files.provenance.empty())
+      provenance =
+          verify::read_provenance(files.provenance, static_cast<std::int64_t>(tessellation.positions.size()),
+                                  control, opened.chosen.scheme);
+    verify::FilesAudit audit =
+        verify::audit_files(files.control, control, std::move(tessellation), provenance, options,
+                            [&](const std::string& what, std::size_t done, std::size_t total) {
+                              progress.show(done, total, what);
+                              verify::end_if_interrupted();
+                            });
+    for (verify::Result& r : audit.results) {
+      r.triangulated = cut;
+      report.results.push_back(std::move(r));
+    }
+    for (const std::string& note : audit.notes) about += "\n" + note;
+    per_vertex = std::move(audit.per_vertex);
+    if (audit.gave_up) signal = verify::interrupted();  // the other files say the same of each row
+  }
+  progress.clear();
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string text = json.empty() ? "" : attested(verify::to_json(report), plan_of(files));
+  const bool judged = settle(a.output, report);
+  const std::string text =
+      json.empty() ? "" : attested(verify::to_json(report), plan_of(files, report.subjects));
   // Files are written first, because a reader of the table may close the pipe; and the table is printed even
   // if a file cannot be written.
   std::exception_ptr not_written;
   try {
-    if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, audit.per_vertex);
+    if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, per_vertex);
     if (!json.empty() && json != "-") verify::write_text(json, text);
+    if (!a.output.junit.empty()) verify::write_text(a.output.junit, verify::to_junit(report));
+    std::vector<verify::AuditMesh> meshes{{files.control, control}};
+    meshes[0].depth = 0;  // as rows of files say
+    meshes[0].asked_scheme = opened.chosen.scheme;
+    const std::vector<verify::AuditSubject> none;
+    const Audited audited{none, meshes, report, a.threads};
+    if (!a.output.html.empty()) write_html(a.output.html, audited, a.output.level);
+    write_witnesses(a.output, audited);
   } catch (const std::exception&) {
     not_written = std::current_exception();
   }
   if (json == "-") {
     say_text(stdout, text);
   } else {
-    say("{}\n", scheme_line({opened.chosen}, mesh));
-    for (const std::string& note : audit.notes) say("{}\n", note);
-    say("{}", audit.notes.empty() ? "" : "\n");
-    say_report(report, [](const verify::Report& shown, bool in_colour) {
-      return verify::to_table(shown, in_colour, false);
+    say_report(report, [&](const verify::Report& shown, bool in_colour) {
+      const std::string top = verify::visible_text(about);
+      return a.details ? top + "\n\n" + verify::to_table(shown, in_colour)
+                       : verify::to_overview(shown, verify::causes(shown), in_colour, top, a.output.level,
+                                             "--details prints all tables. --explain CHECK says what a check "
+                                             "means.\n");
     });
   }
   if (not_written) std::rethrow_exception(not_written);
-  if (signal != 0) return kSignalled + signal;
-  return report.held() ? kHeld : kFindings;
+  return signal != 0 ? kSignalled + signal : exit_code_of(report, judged);
 }
 
 }  // namespace limitcheck::cli

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -92,6 +94,83 @@ TEST_F(AuditFilesCommand, ExitsWithTwoOnBadUsageAndBadInput) {
        "--control cage.obj --tessellation cage.obj --provenance map.csv",
        "--control cage.obj --tessellation cage.obj --tolerance 0",
        "--control cage.obj --tessellation cage.obj --fit shear"});
+}
+
+// Every option that --help names: with finished files it has an effect, which is shown here, or it is refused.
+TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
+  ASSERT_EQ(run("generate bumpy:20 -o cage.obj").code, 0);
+  ASSERT_EQ(run("tessellate cage.obj --depth 1 -o out.obj").code, 0);
+  ASSERT_EQ(run("generate quad-cube -o quads.obj").code, 0);
+  const std::string files = "audit --control cage.obj --tessellation ", wrong = files + "cage.obj ";
+  ASSERT_EQ(run(wrong + "--json old.json").code, 1);
+  write("waivers.json", R"({"waivers": [{"subject": "cage.obj", "check": "*", "reason": "known",
+        "expires": "2999-01-01"}]})");
+  write("map.csv", "0,0,0,0\n");
+  // The values of options that have one; what is said of a file that has findings, with such an option: the exit
+  // code, and what is then there.
+  struct Effect {
+    std::string value;
+    int code;
+    std::string file;
+  };
+  const std::map<std::string, Effect> effects{
+      {"--control", {"cage.obj", 1, ""}},
+      {"--tessellation", {"out.obj", 1, ""}},
+      {"--normals", {"", 1, ""}},
+      {"--provenance", {"map.csv", 1, ""}},
+      {"--fit", {"", 1, ""}},
+      {"--tolerance", {"9", 1, ""}},
+      {"--max-deviation", {"9", 1, ""}},
+      {"--no-hausdorff", {"", 1, ""}},
+      {"--per-vertex", {"each.csv", 1, "each.csv"}},
+      {"--scheme", {"catmull-clark", 1, ""}},
+      {"--triangulate", {"fan", 1, ""}},
+      {"--threads", {"1", 1, ""}},
+      {"--json", {"new.json", 1, "new.json"}},
+      {"--details", {"", 1, ""}},
+      {"--require", {"file-normals", 1, ""}},
+      {"--junit", {"junit.xml", 1, "junit.xml"}},
+      {"--html", {"page.html", 1, "page.html"}},
+      {"--witnesses", {"found", 1, "found"}},
+      {"--waivers", {"waivers.json", 0, ""}},
+      {"--baseline", {"old.json", 0, ""}},
+      {"--save-baseline", {"known.txt", 1, "known.txt"}},
+      {"--explain", {"normals", 0, ""}},
+      {"--help", {"", 0, ""}},
+  };
+  const std::map<std::string, std::string> values{
+      {"--depth", "2"},          {"--depths", "uniform"},   {"--sample", "9"},       {"--exhaustive", "3"},
+      {"--option", "a=b"},       {"--shard", "1/2"},        {"--level", "quick"},    {"--shrink", "1"},
+      {"--report", "all"},       {"--program", "true"},     {"--timeout", "1"},      {"--memory", "9"},
+      {"--containment", "auto"}, {"--witness-folder", "x"}, {"--checks", "normals"}, {"--rerun", "old.json"}};
+  const std::string help = run("audit --help", 0).out;
+  const std::regex name("(^|\n) +(?:-[a-z],)?(--[a-z-]+)");
+  std::size_t seen = 0;
+  for (std::sregex_iterator m(help.begin(), help.end(), name), end; m != end; ++m, ++seen) {
+    const std::string option = (*m)[2];
+    const auto effect = effects.find(option);
+    if (effect == effects.end()) {
+      const auto value = values.find(option);
+      const Outcome o = run(wrong + option + " " + (value == values.end() ? "" : value->second), 2);
+      EXPECT_TRUE(says(o.err, option + " has no effect on finished tessellations")) << option << o.err;
+      continue;
+    }
+    const auto& [value, code, file] = effect->second;
+    if (option != "--control" && option != "--tessellation") (void)run(wrong + option + " " + value, code);
+    EXPECT_TRUE(file.empty() || std::filesystem::exists(folder_ / file)) << option;
+  }
+  EXPECT_GT(seen, effects.size());
+  expect_refused("audit", {"naive --control cage.obj --tessellation out.obj"});
+  (void)run(files + "out.obj", 0);
+  (void)run(files + "out.obj --require file-positions", 2);  // without a provenance there is no such row
+  // Several files are subjects of one report.
+  const json both = json_of(files + "out.obj --tessellation cage.obj --json", 1);
+  EXPECT_EQ(both["subjects"], json({"out.obj", "cage.obj"}));
+  for (const json& row : both["results"])
+    EXPECT_TRUE(row["subject"] == "cage.obj" || row["status"] == "held") << row;
+  ASSERT_EQ(command("mkdir all && cp out.obj cage.obj all").code, 0);
+  EXPECT_EQ(json_of(files + "all --json", 1)["subjects"], json({"all/cage.obj", "all/out.obj"}));
+  expect_refused("audit", {"--control cage.obj --tessellation all --per-vertex each.csv"});
 }
 
 // What an OBJ file has of positions and faces.

@@ -27,8 +27,7 @@ namespace limitcheck::cli {
 
 void add_report_options(CLI::App& command, ReportOptions& a) {
   std::vector<std::string> checks;
-  for (const auto& e : verify::row_kinds())
-    if (!e.check.starts_with("file-")) checks.emplace_back(e.check);
+  for (const auto& e : verify::row_kinds()) checks.emplace_back(e.check);
   command
       .add_option("--require", a.required,
                   "Checks, separated by commas, that must have judged something of each subject; otherwise "

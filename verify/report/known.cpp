@@ -144,11 +144,7 @@ void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
     }
     if (held.empty()) note("covers no finding");
   }
-  for (Result& r : notes) {
-    if (std::find(report.subjects.begin(), report.subjects.end(), r.subject) == report.subjects.end())
-      report.subjects.push_back(r.subject);
-    report.results.push_back(std::move(r));
-  }
+  for (Result& r : notes) report.results.push_back(std::move(r));
 }
 
 std::string version_in(const std::string& description) {

@@ -107,6 +107,10 @@ std::string difference_command(const Result& result) {
 }
 
 std::string audit_command(const Result& result, const std::string& level) {
+  if (result.check.starts_with("file-"))
+    return fmt::format("limitcheck audit --control {} --tessellation {}", quoted(result.mesh),
+                       quoted(result.subject)) +
+           mesh_options(result);
   std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
                                     quoted(result.mesh), result.depth) +
                         mesh_options(result);

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
+#include <string_view>
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
@@ -19,11 +19,16 @@
 namespace limitcheck::verify {
 namespace {
 
+constexpr std::string_view kDigits = "0123456789";
+
+// Of nine digits at most each.
 std::vector<int> numbers(const std::string& version) {
   std::vector<int> parts;
-  static const std::regex digits("[0-9]{1,9}");
-  for (std::sregex_iterator m(version.begin(), version.end(), digits), end; m != end; ++m)
-    parts.push_back(std::stoi(m->str()));
+  for (std::size_t at = 0; (at = version.find_first_of(kDigits, at)) != std::string::npos;) {
+    const std::size_t end = std::min(version.find_first_not_of(kDigits, at), version.size());
+    parts.push_back(std::stoi(version.substr(at, std::min<std::size_t>(end - at, 9))));
+    at = end;
+  }
   return parts;
 }
 
@@ -41,6 +46,11 @@ bool covers(const Waiver& w, const Result& r, const std::map<std::string, std::s
 }
 
 bool is_a_day(const std::string& date) {
+  constexpr std::string_view kForm = "0000-00-00";
+  std::string form = date;
+  std::replace_if(
+      form.begin(), form.end(), [](char c) { return kDigits.find(c) != std::string_view::npos; }, '0');
+  if (form != kForm) return false;
   const auto number = [&](std::size_t at, std::size_t count) { return std::stoi(date.substr(at, count)); };
   return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
                                      std::chrono::month(static_cast<unsigned>(number(5, 2))),
@@ -62,7 +72,6 @@ std::vector<Waiver> parse_waivers(const std::string& text) {
     throw data::ArgumentError("waivers: not a JSON object with an array \"waivers\"");
   static const std::set<std::string> known{"subject", "versions", "check", "shape",
                                            "bound",   "reason",   "link",  "expires"};
-  static const std::regex date("[0-9]{4}-[0-9]{2}-[0-9]{2}");
   std::vector<Waiver> list;
   for (const auto& row : json["waivers"]) {
     const auto refuse = [&](const std::string& what) {
@@ -86,8 +95,7 @@ std::vector<Waiver> parse_waivers(const std::string& text) {
     w.reason = field(row, "reason", nullptr);
     w.link = field(row, "link", "");
     w.expires = field(row, "expires", nullptr);
-    if (!std::regex_match(w.expires, date) || !is_a_day(w.expires))
-      refuse("\"expires\" is no date as 2027-01-31");
+    if (!is_a_day(w.expires)) refuse("\"expires\" is no date as 2027-01-31");
     if (row.contains("versions")) {
       if (!row["versions"].is_object()) refuse("\"versions\" is not an object");
       w.from = field(row["versions"], "from", "");
@@ -148,9 +156,13 @@ void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
 }
 
 std::string version_in(const std::string& description) {
-  static const std::regex pattern("[0-9]+(\\.[0-9]+)*");
-  std::smatch match;
-  return std::regex_search(description, match, pattern) ? match.str() : "";
+  const std::size_t begin = description.find_first_of(kDigits);
+  if (begin == std::string::npos) return "";
+  std::size_t end = description.find_first_not_of(kDigits, begin);
+  while (end + 1 < description.size() && description[end] == '.' &&
+         kDigits.find(description[end + 1]) != std::string_view::npos)
+    end = description.find_first_not_of(kDigits, end + 1);
+  return description.substr(begin, end - begin);
 }
 
 }  // namespace limitcheck::verify

@@ -119,7 +119,7 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--normals", {"", 1, ""}},
       {"--provenance", {"map.csv", 1, ""}},
       {"--fit", {"", 1, ""}},
-      {"--tolerance", {"9", 1, ""}},
+      {"--tolerance", {"9", 0, ""}},
       {"--max-deviation", {"9", 1, ""}},
       {"--no-hausdorff", {"", 1, ""}},
       {"--per-vertex", {"each.csv", 1, "each.csv"}},

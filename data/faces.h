@@ -82,6 +82,7 @@ class Triangles {
   Triangle back() const { return (*this)[size() - 1]; }
   std::vector<Triangle> to_vector() const { return {begin(), end()}; }
 
+  /// Goes through the triangles.
   class Iterator {
    public:
     using iterator_category = std::random_access_iterator_tag;

@@ -8,6 +8,7 @@
 
 namespace limitcheck::data {
 
+/// Which rule of subdivision.
 enum class Scheme { kLoop, kCatmullClark };
 
 /// "loop", "catmull-clark": the words of the command line and of reports.

@@ -38,6 +38,7 @@ inline constexpr std::array<SharpnessClass, 16> kSharpnessClasses{{
     {'J', "10", 10, true, 10},
     {'K', "above 10", 10, false, 12},
 }};
+/// From this class on sharpness is for ever.
 inline constexpr std::size_t kFirstInfiniteClass = 14;
 /// Whether what has a sharpness of this class is still sharp after four steps, and not for ever.
 constexpr bool is_long_lasting(std::size_t k) {

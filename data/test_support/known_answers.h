@@ -127,6 +127,7 @@ struct QuadAnswer {
 
 // Both throw InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of its form.
 
+/// Loop's, of smooth surfaces: the cases of known_answers.json.
 KnownAnswers load_known_answers(const std::filesystem::path& file = data_file("known_answers.json"));
 /// Catmull-Clark's, and Loop's with sharp edges: the cases of known_answers_catmull_clark.json.
 std::vector<QuadAnswer> load_quad_answers();

@@ -20,8 +20,9 @@ enum class IndexForm : std::uint8_t { kTriangles, kStrips };
 
 /// Ends a strip, as 32 and as 16 bits (the restart index of OpenGL, Vulkan, Direct3D).
 inline constexpr std::uint32_t kRestartIndex = 0xffffffff;
-inline constexpr std::uint16_t kRestartIndex16 = 0xffff;
+inline constexpr std::uint16_t kRestartIndex16 = 0xffff;  ///< the same of 16 bits
 
+/// What a mesh of patches is to hold besides vertices.
 struct PatchOptions {
   IndexForm form = IndexForm::kTriangles;
   bool narrow = false;       // indices of 16 bits as well: depths of 7 and less

@@ -101,7 +101,7 @@ class BasicAdjacency {
 
 /// Of triangles, which Loop's scheme is about, and of quads.
 using Adjacency = BasicAdjacency<3>;
-using QuadAdjacency = BasicAdjacency<4>;
+using QuadAdjacency = BasicAdjacency<4>;  ///< of quads
 
 extern template class BasicAdjacency<3>;
 extern template class BasicAdjacency<4>;

@@ -39,6 +39,7 @@ class VertexKinds {
   std::span<const VertexKind> kinds_;
 };
 
+/// The sharpness of what no step makes smooth.
 inline constexpr double kAlwaysSharp = std::numeric_limits<double>::infinity();
 
 /// What one step makes of the sharpness of an edge, seen from one of its ends, or of a vertex. [DeRose 1998]
@@ -81,7 +82,9 @@ struct SharpCut {
 template <int K>
 SharpCut cut_sharp(BasicAdjacency<K>& adjacency, const SharpPolygons& sharp);
 
+/// Of triangles.
 extern template SharpCut cut_sharp(BasicAdjacency<3>&, const SharpPolygons&);
+/// Of quads.
 extern template SharpCut cut_sharp(BasicAdjacency<4>&, const SharpPolygons&);
 
 }  // namespace limitcheck::fast

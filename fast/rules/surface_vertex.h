@@ -40,6 +40,7 @@ static_assert(sizeof(CompactVertex) == 16);
 
 inline constexpr double kCompactNormalBound = 6.5e-5;  // rad
 
+/// A vertex in 16 bytes; its normal is off by at most kCompactNormalBound.
 inline CompactVertex compacted(const SurfaceVertex<float>& v) {
   const auto [x, y, z] = v.normal;
   const float inverse = 1 / (std::abs(x) + std::abs(y) + std::abs(z));
@@ -65,6 +66,7 @@ inline std::array<float, 3> unpacked_normal(const CompactVertex& v) {
 
 /// Packs a row of vertices.
 using CompactRow = void (*)(const SurfaceVertex<float>* from, std::size_t count, CompactVertex* to);
+/// The one that needs no SIMD.
 inline void compact_row(const SurfaceVertex<float>* from, std::size_t count, CompactVertex* to) {
   for (std::size_t k = 0; k < count; ++k) to[k] = compacted(from[k]);
 }

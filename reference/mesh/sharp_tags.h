@@ -16,10 +16,12 @@ namespace limitcheck::reference {
 
 /// data::Sharpness with exact numbers.
 struct SharpTags {
+  /// An edge between two vertices.
   struct Edge {
     std::int32_t a, b;
     Parameter sharpness;  ///< 10 and more is infinite
   };
+  /// A vertex by its number.
   struct Vertex {
     std::int32_t vertex;
     Parameter sharpness;

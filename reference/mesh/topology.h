@@ -89,6 +89,7 @@ class Topology {
 /// How many faces vertices have of whose faces only some are there, with the means of all (surface/near_part.h). None
 /// in ordinary meshes.
 using Valences = std::map<std::int32_t, int>;
+/// How many faces a vertex has: `faces` of them are there.
 inline int valence_of(const Valences& valences, std::int32_t v, std::size_t faces) {
   const auto found = valences.find(v);
   return found != valences.end() ? found->second : static_cast<int>(faces);

@@ -28,6 +28,7 @@ void add_difference(Vec3<N>& sum, N& terms, const N& weight, const Vec3<N>& a, c
   if constexpr (kRounds<N>) terms += (magnitude(a) + magnitude(b)) * magnitude(weight);
 }
 
+/// A normal, and how it came about.
 template <class N>
 struct Normal {
   Vec3<N> direction;  ///< unit length
@@ -127,6 +128,7 @@ void set_normal(SurfacePoint<N>& point, const Tangents<N>& tangents, const Vec3<
     point.normal_condition = normal.condition;
   }
 }
+/// Of a point, with what is known of their terms.
 template <class N>
 Tangents<N> tangents_of(const SurfacePoint<N>& point) {
   return {point.t1, point.t2, point.t1_terms, point.t2_terms};

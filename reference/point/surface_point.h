@@ -36,6 +36,7 @@ enum class Fate : std::uint8_t {
   kNoLimit,  ///< growth = 1: they depend on the direction, or grow like the logarithm of the distance
   kGrows     ///< growth > 1
 };
+/// What becomes of the derivatives of an order towards a vertex, and why.
 struct DerivativeLimit {
   Fate fate = Fate::kValue;
   double eigenvalue = 0;  ///< that decides

@@ -106,6 +106,7 @@ class BasicQuadRings {
   std::int64_t degenerate_normals_ = 0;
 };
 
+/// As the kernels take them.
 using QuadRings = BasicQuadRings<float>;
 
 }  // namespace limitcheck::fast::row_stream

@@ -61,9 +61,11 @@ const Variant* find_variant(std::span<const Variant> all, std::string_view name)
     if (name == variant.name) return &variant;
   return nullptr;
 }
+/// The kernel of this name; nullptr: this machine has none.
 inline const Kernel* find_kernel(const char* name) {
   return find_variant(kernels(), name);
 }
+/// The same of quads.
 inline const QuadKernel* find_quad_kernel(const char* name) {
   return find_variant(quad_kernels(), name);
 }

@@ -288,7 +288,7 @@ void add_repair(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
       "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
-  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file");
+  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file; it must be named");
   command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
       ->required()
       ->type_name("FILE");

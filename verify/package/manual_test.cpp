@@ -22,7 +22,7 @@ TEST_F(Manual, SaysWhatHelpSays) {
   const std::string page = contents_of(LIMITCHECK_BINARY_DIR "/limitcheck.1");
   for (const char* text :
        {".B limitcheck eval\n[\\fIoptions\\fR] \\fIMESH\\fR \\fIFACE\\fR \\fIU\\fR \\fIV\\fR\n",
-        ".B limitcheck repair\n[\\fIoptions\\fR] \\fB\\-o\\fR \\fIFILE\\fR \\fIMESH\\fR\n",
+        ".B limitcheck repair\n[\\fIoptions\\fR] \\fB\\-o\\fR \\fIFILE\\fR [\\fIMESH\\fR]\n",
         ".SS limitcheck audit\nJudge a tessellator against the exact surface.\n.TP\n\\fISUBJECT\\fR\n",
         ".TP\n\\fB\\-\\-precision\\fR \\fIfloat\\fR|\\fIdouble\\fR\nRound the control mesh",
         "(1 to 10000, default 16).\n", "\\fB\\-\\-colour\\fR, \\fB\\-\\-color\\fR", ".SS limitcheck bench\n",

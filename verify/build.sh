@@ -27,11 +27,13 @@ cmake --preset "$preset" "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 2; }
 
 # ninja's lines begin with [12/345].
 tell() {
-  local between=30 steps seconds
+  local between=30 next=0 steps seconds
   [[ -t 2 ]] && between=1
   SECONDS=0
-  while sleep "$between"; do
-    steps=$(tail -c 4000 "$log" | tr '\r' '\n' | grep -oE '^\[[0-9]+/[0-9]+\]' | tail -n 1 | tr -d '[]') || continue
+  while sleep 1; do
+    ((SECONDS >= next)) || continue
+    next=$((SECONDS + between))
+    steps=$(tail -c 4000 "$log" | tr '\r' '\n' | grep -oE '^\[[1-9][0-9]*/[0-9]+\]' | tail -n 1 | tr -d '[]') || continue
     seconds=$((SECONDS * (${steps#*/} - ${steps%/*}) / ${steps%/*}))
     if [[ -t 2 ]]; then
       printf '\r\033[K%s steps, about %d s left' "$steps" "$seconds" >&2
@@ -44,7 +46,7 @@ tell &
 teller=$!
 code=0
 cmake --build --preset "$preset" --target "$target" >"$log" 2>&1 || code=2
-kill "$teller"
+kill "$teller" 2>/dev/null || true
 [[ ! -t 2 ]] || printf '\r\033[K' >&2
 [[ $code -eq 0 ]] || { cat "$log" >&2; exit 2; }
 [[ -z $first ]] || echo "Built, in $SECONDS s." >&2

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "verify/evidence/evidence.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/recognise/recognise.h"
+#include "verify/relations/refusal.h"
 #include "verify/row/result.h"
 #include "verify/shard/shard.h"
 
@@ -70,7 +73,13 @@ class Auditor {
 
  private:
   struct Rows;
-  struct Shared;
+  // What all that work at an audit have in common.
+  struct Shared {
+    std::function<void(const AuditStep&)> on_step;
+    std::mutex mutex;
+    std::size_t done = 0, total = 1;
+    std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals;  // of each subject, once
+  };
   struct Work;
 
   // One that works beside it: the same audit, with a reference of its own.

@@ -294,8 +294,8 @@ void add_repair(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   auto* weld = command->add_option("--weld", a->weld,
                                    "Merge vertices at exactly the same place, which closes seams; with EPS, "
-                                   "at most 0.01, also border vertices at "
-                                   "most EPS diagonals of the bounding box apart");
+                                   "0.01 or less, also border vertices that lie no more than EPS diagonals "
+                                   "of the bounding box apart");
   weld->expected(0, 1)->type_name("[EPS]");
   add_mesh_options(*command, a->mesh);
   command->footer(

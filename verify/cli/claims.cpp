@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using verify::Claim, verify::ClaimOutcome, verify::ClaimResult;
 
-struct Arguments {
+struct ClaimsArguments {
   std::vector<std::string> ids;
   std::string programs;
   bool json = false, errata = false;
@@ -127,7 +127,7 @@ std::string to_table(const std::vector<ClaimResult>& results) {
   return out;
 }
 
-int claims(const Arguments& a) {
+int claims(const ClaimsArguments& a) {
   if (a.errata) {
     say("{}", verify::errata());
     return kHeld;
@@ -164,7 +164,7 @@ int claims(const Arguments& a) {
 }  // namespace
 
 void add_claims(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ClaimsArguments>();
   CLI::App* command = app.add_subcommand(
       "claims", "Print our verdict on each claim of the paper, and whether its tests pass in this build");
   command->add_option("ID", a->ids, "Claims, as C14 (default: all)");

@@ -31,7 +31,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Arguments {
+struct HuntArguments {
   std::string subject, time, shard = "1/1", json, junit, baseline;
   std::string witnesses = "limitcheck-hunt";
   std::vector<std::string> options, vary;
@@ -56,7 +56,7 @@ double seconds_of(const std::string& text) {
   return seconds * factor;
 }
 
-std::vector<data::Scheme> schemes_asked(const Arguments& a) {
+std::vector<data::Scheme> schemes_asked(const HuntArguments& a) {
   if (a.scheme) return {*a.scheme};
   return {data::Scheme::kLoop, data::Scheme::kCatmullClark};
 }
@@ -68,14 +68,14 @@ struct Hunted {
   std::vector<verify::Does> does;
   std::vector<verify::Way> ways;
 
-  explicit Hunted(const Arguments& a)
+  explicit Hunted(const HuntArguments& a)
       : loader(a.from),
         subject(loader.open(a.subject, a.options)),
         does(verify::schemes_of(subject, schemes_asked(a))),
         ways(verify::ways_of(subject, schemes_asked(a), a.vary)) {}
   verify::HuntPlan plan(std::uint64_t seed) const { return {seed, does, ways, verify::is_oracle(subject)}; }
   // A report before the first case.
-  verify::HuntReport report(const Arguments& a) const {
+  verify::HuntReport report(const HuntArguments& a) const {
     verify::HuntReport report;
     report.version = LIMITCHECK_VERSION, report.subject = subject.label();
     report.seed = a.seed, report.asked = a.time.empty() ? a.cases : 0;
@@ -117,7 +117,7 @@ verify::HuntReport part_of(verify::HuntReport report, const verify::Journal& jou
 }
 
 // Goes on where the journal ends, until all cases of its part are looked at or the time is over.
-void hunt_part(const Arguments& a, verify::Journal& journal, JobCounters& counters, Clock::time_point end) {
+void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& counters, Clock::time_point end) {
   const Hunted hunted(a);
   verify::HuntReport report = part_of(hunted.report(a), journal);
   verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {1, a.attempts, a.witnesses});
@@ -147,7 +147,7 @@ void hunt_part(const Arguments& a, verify::Journal& journal, JobCounters& counte
 // The journals of the processes: beside the report, or in a folder that vanishes.
 class PartFiles {
  public:
-  PartFiles(const Arguments& a, const verify::HuntReport& report, const verify::Shard& whole)
+  PartFiles(const HuntArguments& a, const verify::HuntReport& report, const verify::Shard& whole)
       : report_(report) {
     std::string stem = a.json;
     if (a.json.empty() || a.json == "-") {
@@ -205,7 +205,7 @@ verify::HuntReport baseline(const std::string& file) try {
   throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
 }
 
-int hunt(Arguments a) {
+int hunt(HuntArguments a) {
   std::vector<std::string> meshes;
   take_program(a.from, a.subject, meshes);
   if (!meshes.empty())
@@ -223,7 +223,7 @@ int hunt(Arguments a) {
   if (a.jobs <= 0) a.jobs = tbb::info::default_concurrency();
   a.from.isolate = !a.in_process;
   const verify::HuntReport header = [&] {
-    Arguments asked = a;  // that all is well with them is found out here, and said once
+    HuntArguments asked = a;  // that all is well with them is found out here, and said once
     asked.from.isolate = false;
     const Hunted hunted(asked);
     (void)hunted.plan(a.seed);
@@ -283,7 +283,7 @@ int hunt(Arguments a) {
 }  // namespace
 
 void add_hunt(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<HuntArguments>();
   CLI::App* command =
       app.add_subcommand("hunt", "Search for anything wrong with a tessellator on meshes without end");
   command->add_option("SUBJECT", a->subject,

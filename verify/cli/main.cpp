@@ -23,11 +23,11 @@ void add_external(CLI::App& app, int& exit_code, const std::string& name, const 
 
 // Hidden: the process that isolated subjects run in.
 void add_worker(CLI::App& app, int& exit_code) {
-  struct Arguments {
+  struct MainArguments {
     std::string kind, what;
     bool in_turns = false;
   };
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MainArguments>();
   CLI::App* command =
       app.add_subcommand("worker", "Serve one subject to an audit, on standard input and output");
   command->group("");

@@ -27,7 +27,7 @@
 namespace limitcheck::cli {
 namespace {
 
-struct Arguments {
+struct TessellateArguments {
   data::ReadOptions scheme;
   std::string mesh, output, camera, viewport = "1024x768", colour;
   std::vector<double> angles{30};
@@ -63,7 +63,7 @@ std::vector<double> numbers(const std::string& text, char separator, std::size_t
   return result;
 }
 
-fast::Camera camera(const Arguments& a) {
+fast::Camera camera(const TessellateArguments& a) {
   fast::Camera result = a.view;
   if (!a.camera.empty()) {
     std::vector<fast::Point3*> points{&result.eye, &result.target, &result.up};
@@ -89,7 +89,7 @@ fast::Camera camera(const Arguments& a) {
   return result;
 }
 
-fast::DepthOptions depth_options(const Arguments& a) {
+fast::DepthOptions depth_options(const TessellateArguments& a) {
   fast::DepthOptions options = a.depths;
   options.strategy = a.strategy.value_or(a.view_given ? fast::Strategy::kCombined : fast::Strategy::kUniform);
   options.angle_front = a.angles.front();
@@ -102,7 +102,7 @@ struct Timings {
   double read = 0, prepare = 0, write = 0;
 };
 
-nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
+nlohmann::ordered_json report(const TessellateArguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
                               const fast::DepthOptions& options, const Timings& t) {
   return {{"mesh", a.mesh},
           {"scheme", name_of(chosen.scheme)},
@@ -132,7 +132,7 @@ nlohmann::ordered_json report(const Arguments& a, const MeshScheme& chosen, cons
             {"write", t.write}}}};
 }
 
-std::string summary(const Arguments& a, const fast::FrameStats& s, const Timings& t) {
+std::string summary(const TessellateArguments& a, const fast::FrameStats& s, const Timings& t) {
   std::string text =
       fmt::format("{}{}: {} faces: {} pairs, {} singletons, {} fans, {} culled; {} triangles, {} vertices",
                   a.mesh, a.output.empty() ? "" : " -> " + a.output, s.faces, s.pairs, s.singletons, s.fans,
@@ -176,7 +176,7 @@ Outcome run(Engine&& tessellator, const fast::DepthOptions& options, const fast:
   return out;
 }
 
-Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptions& options,
+Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::DepthOptions& options,
             const fast::Camera& view, Progress& progress, Lap& lap, Timings& timings) {
   const data::ControlMesh& mesh = opened.mesh;
   fast::TessellatorOptions engine = a.engine;
@@ -191,7 +191,7 @@ Outcome run(const Arguments& a, const OpenedMesh& opened, const fast::DepthOptio
   return run(stream, options, view, lap, timings);
 }
 
-int tessellate(const Arguments& a) {
+int tessellate(const TessellateArguments& a) {
   Lap lap;
   const fast::DepthOptions options = depth_options(a);
   const fast::Camera view = camera(a);
@@ -240,7 +240,7 @@ void add_tessellate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "tessellate",
       "Tessellate a control mesh: limitcheck tessellate bumpy:800 -o out.glb --camera 0,0,4:0,0,0");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<TessellateArguments>();
   command
       ->add_option("MESH", a->mesh, "A file (OBJ, OFF, PLY, STL) or a name (see limitcheck generate --list)")
       ->required();

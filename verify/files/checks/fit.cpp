@@ -4,36 +4,75 @@
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace limitcheck::verify {
 namespace {
 
-using Points = Eigen::Matrix3Xd;
+using Rotation = std::array<Vector, 3>;  // rows
+using Quaternion = std::array<double, 4>;
 
-Vector vector(const Eigen::Vector3d& v) {
-  return {v[0], v[1], v[2]};
-}
-Eigen::Vector3d eigen(const Vector& v) {
-  return {v[0], v[1], v[2]};
+// The eigenvalues of a symmetric matrix, and its eigenvectors as rows, by Jacobi's method (Golub and Van Loan, Matrix
+// Computations, 8.5). In long double, so that the squares of singular values down to 1e-9 of the largest are told from 0.
+template <std::size_t N>
+struct Spectrum {
+  using Matrix = std::array<std::array<long double, N>, N>;
+  std::array<long double, N> values{};
+  Matrix vectors{};
+
+  explicit Spectrum(Matrix a) {
+    for (std::size_t i = 0; i < N; ++i) vectors[i][i] = 1;
+    for (int sweep = 0; sweep < 30; ++sweep)
+      for (std::size_t p = 0; p < N; ++p)
+        for (std::size_t q = p + 1; q < N; ++q) {
+          if (a[p][q] == 0) continue;
+          const long double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+          const long double t = (theta < 0 ? -1 : 1) / (std::abs(theta) + std::hypot(theta, 1.0L));
+          const long double c = 1 / std::hypot(t, 1.0L), s = t * c;
+          const auto turn = [c, s](long double& x, long double& y) {
+            const long double old = x;
+            x = c * old - s * y;
+            y = s * old + c * y;
+          };
+          for (std::size_t k = 0; k < N; ++k) turn(a[k][p], a[k][q]);
+          for (std::size_t k = 0; k < N; ++k) turn(a[p][k], a[q][k]);
+          for (std::size_t k = 0; k < N; ++k) turn(vectors[p][k], vectors[q][k]);
+          a[p][q] = a[q][p] = 0;
+        }
+    for (std::size_t i = 0; i < N; ++i) values[i] = a[i][i];
+  }
+};
+
+// The rotation r that makes the sum of b . r(a) largest, from the sums s[i][j] of a[i] b[j]: Horn, Closed-form solution of
+// absolute orientation using unit quaternions, 1987.
+Quaternion quaternion_of(const std::array<Vector, 3>& s) {
+  const double x = s[0][0], y = s[1][1], z = s[2][2];
+  const double yz = s[1][2] - s[2][1], zx = s[2][0] - s[0][2], xy = s[0][1] - s[1][0];
+  const double xx = s[1][2] + s[2][1], yy = s[2][0] + s[0][2], zz = s[0][1] + s[1][0];
+  const Spectrum<4> spectrum(
+      {{{x + y + z, yz, zx, xy}, {yz, x - y - z, zz, yy}, {zx, zz, y - x - z, xx}, {xy, yy, xx, z - x - y}}});
+  const auto most =
+      std::max_element(spectrum.values.begin(), spectrum.values.end()) - spectrum.values.begin();
+  Quaternion q;
+  std::copy_n(spectrum.vectors[static_cast<std::size_t>(most)].begin(), 4, q.begin());
+  return q;
 }
 
-Similarity similarity(double scale, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset) {
-  Similarity s;
-  s.scale = scale;
-  for (int i = 0; i < 3; ++i) s.rotation[i] = vector(rotation.row(i));
-  s.offset = vector(offset);
-  return s;
+// Of a unit quaternion.
+Rotation rotation_of(const Quaternion& q) {
+  const auto [w, x, y, z] = q;
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+           {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+           {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
 
-Eigen::Matrix3d rotation_of(const Similarity& s) {
-  Eigen::Matrix3d r;
-  for (int i = 0; i < 3; ++i) r.row(i) = eigen(s.rotation[i]);
-  return r;
+Rotation transposed(const Rotation& r) {
+  Rotation t;
+  for (int i = 0; i < 3; ++i) t[i] = {r[0][i], r[1][i], r[2][i]};
+  return t;
 }
 
 // The feet of the mapped points; returns the mean square distance.
@@ -70,51 +109,85 @@ Box box_of(const std::vector<Vector>& points) {
 }
 
 // Rotations that take axes to axes.
-std::vector<Eigen::Matrix3d> orientations(Fit kind) {
-  if (kind == Fit::kScale) return {Eigen::Matrix3d::Identity()};
-  std::vector<Eigen::Matrix3d> list;
+std::vector<Rotation> orientations(Fit kind) {
+  if (kind == Fit::kScale) return {Similarity{}.rotation};
+  std::vector<Rotation> list;
   std::array<int, 3> axis{0, 1, 2};
   do {
     for (int signs = 0; signs < 8; ++signs) {
-      Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
-      for (int i = 0; i < 3; ++i) r(i, axis[i]) = (signs >> i & 1) != 0 ? -1 : 1;
-      if (r.determinant() > 0) list.push_back(r);
+      Rotation r{};
+      for (int i = 0; i < 3; ++i) r[i][axis[i]] = (signs >> i & 1) != 0 ? -1 : 1;
+      if (dot(r[0], cross(r[1], r[2])) > 0) list.push_back(r);
     }
   } while (std::next_permutation(axis.begin(), axis.end()));
   return list;
 }
 
-// One step on the distances along the normals: d + n . (x'
-// delta) for an infinitesimal scaling, turning and shift.
+// Takes `from` to `to`.
+Similarity about(double scale, const Rotation& rotation, const Vector& from, const Vector& to) {
+  Similarity map{.scale = scale, .rotation = rotation};
+  map.offset = to - map(from);
+  return map;
+}
+
+// The similarity that takes the points nearest to their feet, pair by pair (Umeyama 1991; Horn's rotation).
+Similarity pairs_step(const std::vector<Vector>& points, const std::vector<Foot>& foot, Fit kind) {
+  const double share = 1 / static_cast<double>(points.size());
+  Vector from{}, to{};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    from = from + share * points[k];
+    to = to + share * foot[k].position;
+  }
+  double square = 0;
+  std::array<Vector, 3> sums{};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vector a = points[k] - from, b = foot[k].position - to;
+    square += dot(a, a);
+    for (int i = 0; i < 3; ++i) sums[i] = sums[i] + a[i] * b;
+  }
+  Similarity map;
+  if (kind == Fit::kSimilarity) map.rotation = rotation_of(quaternion_of(sums));
+  const Rotation turn = transposed(map.rotation);
+  map.scale = (dot(turn[0], sums[0]) + dot(turn[1], sums[1]) + dot(turn[2], sums[2])) / square;
+  return about(map.scale, map.rotation, from, to);
+}
+
+// One step on the distances along the normals: d + n . (x' delta) for an infinitesimal scaling, turning and shift.
 Similarity normal_step(const std::vector<Vector>& points, const std::vector<Foot>& foot,
                        const Similarity& map, Fit kind, const Vector& centre, double size) {
-  const int unknowns = kind == Fit::kScale ? 4 : 7;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 7> a(points.size(), unknowns);
-  Eigen::VectorXd b(points.size());
+  constexpr std::size_t kUnknowns = 7;  // scale, shift, turn: the last are 0 for kScale
+  Spectrum<kUnknowns>::Matrix a{};
+  std::array<long double, kUnknowns> b{};
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vector mapped = map(points[k]);
-    const Eigen::Vector3d x = eigen(mapped - centre) / size, n = eigen(foot[k].normal);
-    const auto row = static_cast<Eigen::Index>(k);
-    a(row, 0) = n.dot(x);
-    a.block<1, 3>(row, 1) = n.transpose();
-    if (unknowns == 7) a.block<1, 3>(row, 4) = x.cross(n).transpose();
-    b[row] = dot(foot[k].normal, foot[k].position - mapped) / size;
+    const Vector mapped = map(points[k]), x = (1 / size) * (mapped - centre), &n = foot[k].normal;
+    const Vector turn = kind == Fit::kScale ? Vector{} : cross(x, n);
+    const std::array<long double, kUnknowns> row{dot(n, x), n[0], n[1], n[2], turn[0], turn[1], turn[2]};
+    const double right = dot(n, foot[k].position - mapped) / size;
+    for (std::size_t i = 0; i < kUnknowns; ++i) {
+      b[i] += right * row[i];
+      for (std::size_t j = 0; j < kUnknowns; ++j) a[i][j] += row[i] * row[j];
+    }
   }
   // The shortest solution: directions in which the surface can slide along itself stay as they are.
-  Eigen::CompleteOrthogonalDecomposition<decltype(a)> orthogonal;
-  orthogonal.setThreshold(1e-9);
-  orthogonal.compute(a);
-  const Eigen::VectorXd delta = orthogonal.solve(b);
-  const double scale = 1 + delta[0];
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  if (unknowns == 7) {
-    const Eigen::Vector3d w = delta.tail<3>();
-    if (w.norm() > 0) turn = Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix();
+  const Spectrum<kUnknowns> spectrum(a);
+  const long double largest = *std::max_element(spectrum.values.begin(), spectrum.values.end());
+  std::array<double, kUnknowns> delta{};
+  for (std::size_t m = 0; m < kUnknowns; ++m) {
+    if (!(spectrum.values[m] > 1e-18L * largest)) continue;
+    const auto& vector = spectrum.vectors[m];
+    const long double part =
+        std::inner_product(vector.begin(), vector.end(), b.begin(), 0.0L) / spectrum.values[m];
+    for (std::size_t i = 0; i < kUnknowns; ++i) delta[i] += static_cast<double>(part * vector[i]);
   }
-  const Eigen::Matrix3d rotation = turn * rotation_of(map);
-  const Eigen::Vector3d shift = delta.segment<3>(1) * size;
-  const Eigen::Vector3d c = eigen(centre);
-  return similarity(scale * map.scale, rotation, scale * (turn * (eigen(map.offset) - c)) + c + shift);
+  const Vector shift{delta[1], delta[2], delta[3]}, w{delta[4], delta[5], delta[6]};
+  const double half = norm(w) / 2, sine = half > 0 ? std::sin(half) / norm(w) : 0;
+  const Rotation turn = rotation_of({std::cos(half), sine * w[0], sine * w[1], sine * w[2]});
+  Rotation rotation;
+  const Rotation columns = transposed(map.rotation);
+  for (int i = 0; i < 3; ++i)
+    rotation[i] = {dot(turn[i], columns[0]), dot(turn[i], columns[1]), dot(turn[i], columns[2])};
+  const Similarity step = about(1 + delta[0], turn, centre, centre + size * shift);
+  return {.scale = step.scale * map.scale, .rotation = rotation, .offset = step(map.offset)};
 }
 
 }  // namespace
@@ -132,29 +205,11 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
   std::vector<Foot> foot;
   Similarity best;
   double least = std::numeric_limits<double>::infinity();
-  const auto pairs_step = [&](const std::vector<Vector>& list, const Similarity& map) {
-    Points source(3, list.size()), target(3, list.size());
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      source.col(static_cast<Eigen::Index>(k)) = eigen(list[k]);
-      target.col(static_cast<Eigen::Index>(k)) = eigen(foot[k].position);
-    }
-    if (kind == Fit::kSimilarity) {
-      const Eigen::Matrix4d m = Eigen::umeyama(source, target, true);
-      const double scale = std::cbrt(m.topLeftCorner<3, 3>().determinant());
-      if (!(scale > 0)) return map;
-      return similarity(scale, m.topLeftCorner<3, 3>() / scale, m.topRightCorner<3, 1>());
-    }
-    const Eigen::Vector3d s = source.rowwise().mean(), t = target.rowwise().mean();
-    const Points ds = source.colwise() - s, dt = target.colwise() - t;
-    const double scale = ds.cwiseProduct(dt).sum() / ds.squaredNorm();
-    return similarity(scale, Eigen::Matrix3d::Identity(), t - scale * s);
-  };
-  for (const Eigen::Matrix3d& rotation : orientations(kind)) {
-    const double scale = to.size / from.size;
-    Similarity map = similarity(scale, rotation, eigen(to.middle) - scale * (rotation * eigen(from.middle)));
+  for (const Rotation& rotation : orientations(kind)) {
+    Similarity map = about(to.size / from.size, rotation, from.middle, to.middle);
     double error = feet(surface, few, map, foot);
     for (int round = 0; round < 8; ++round) {
-      map = pairs_step(few, map);
+      map = pairs_step(few, foot, kind);
       error = feet(surface, few, map, foot);
     }
     if (error < least) {
@@ -171,7 +226,7 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
     double error = feet(surface, some, next, foot);
     if (!(error < least)) {
       foot = std::move(kept);
-      next = pairs_step(some, best);
+      next = pairs_step(some, foot, kind);
       error = feet(surface, some, next, foot);
       if (!(error < least)) break;
     }
@@ -186,11 +241,13 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
 
 std::string to_string(const Similarity& map) {
   std::string text = fmt::format("scale {}", map.scale);
-  const Eigen::AngleAxisd turn(rotation_of(map));
-  if (std::abs(turn.angle()) > 1e-12) {
-    const Eigen::Vector3d& a = turn.axis();
+  const Quaternion q = quaternion_of(transposed(map.rotation));
+  const Vector v{q[1], q[2], q[3]};
+  const double half = std::atan2(norm(v), std::abs(q[0]));
+  if (half > 5e-13) {
+    const Vector axis = ((q[0] < 0 ? -1 : 1) / norm(v)) * v;
     text += fmt::format(", turned by {:.6f} degrees about ({:.6f}, {:.6f}, {:.6f})",
-                        turn.angle() * 57.295779513082320877, a[0], a[1], a[2]);
+                        2 * half * 57.295779513082320877, axis[0], axis[1], axis[2]);
   }
   return text + fmt::format(", offset ({}, {}, {})", map.offset[0], map.offset[1], map.offset[2]);
 }

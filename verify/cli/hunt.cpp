@@ -117,7 +117,8 @@ verify::HuntReport part_of(verify::HuntReport report, const verify::Journal& jou
 }
 
 // Goes on where the journal ends, until all cases of its part are looked at or the time is over.
-void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& counters, Clock::time_point end) {
+void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& counters,
+               Clock::time_point end) {
   const Hunted hunted(a);
   verify::HuntReport report = part_of(hunted.report(a), journal);
   verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {1, a.attempts, a.witnesses});

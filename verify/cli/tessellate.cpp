@@ -102,8 +102,9 @@ struct Timings {
   double read = 0, prepare = 0, write = 0;
 };
 
-nlohmann::ordered_json report(const TessellateArguments& a, const MeshScheme& chosen, const fast::FrameStats& s,
-                              const fast::DepthOptions& options, const Timings& t) {
+nlohmann::ordered_json report(const TessellateArguments& a, const MeshScheme& chosen,
+                              const fast::FrameStats& s, const fast::DepthOptions& options,
+                              const Timings& t) {
   return {{"mesh", a.mesh},
           {"scheme", name_of(chosen.scheme)},
           {"faces_cut", chosen.cut},

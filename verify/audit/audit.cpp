@@ -162,6 +162,7 @@ ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Sch
 }
 
 std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& mesh) {
+  if (shared_->wanted && row_names(audited, mesh).empty()) return {};
   // The rows as they come, and those that were there before the last check. Work that is left keeps both.
   struct Kept {
     std::vector<Result> rows;
@@ -205,6 +206,7 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
     for (Result& r : results)
       if (r.witness && r.witness->face >= 0) r.witness->face = mesh.sample->faces()[r.witness->face];
   if (interrupted() != 0 || !lack.empty()) add_missing(audited, mesh, begun, lack, results);
+  std::erase_if(results, [&](const Result& r) { return !wants(audited, mesh, r.check); });
   for (Result& r : results) {
     r.depth = depth_of(mesh);
     r.depths = mesh.depths;
@@ -216,11 +218,15 @@ std::vector<Result> Auditor::run(const AuditSubject& audited, const AuditMesh& m
 }
 
 std::vector<std::string> Auditor::row_names(const AuditSubject& audited, const AuditMesh& mesh) const {
-  if (is_oracle(audited)) return {"oracle-faces", "oracle-double", "oracle-parts"};
   std::vector<std::string> rows{"tessellates"};
-  for (const Check& check : checks()) rows.insert(rows.end(), check.rows.begin(), check.rows.end());
-  for (const std::string_view row : rows_of_relations(mesh, mesh.sample ? mesh.sample->part() : mesh.mesh))
-    rows.emplace_back(row);
+  if (is_oracle(audited)) {
+    rows = {"oracle-faces", "oracle-double", "oracle-parts"};
+  } else {
+    for (const Check& check : checks()) rows.insert(rows.end(), check.rows.begin(), check.rows.end());
+    for (const std::string_view row : rows_of_relations(mesh, mesh.sample ? mesh.sample->part() : mesh.mesh))
+      rows.emplace_back(row);
+  }
+  std::erase_if(rows, [&](const std::string& row) { return !wants(audited, mesh, row); });
   return rows;
 }
 
@@ -298,30 +304,40 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   const std::string no_reference = prepare(truth, evidence.point);
   close(*session, results.front());
 
-  run_checks(evidence, rows, no_reference);
+  run_checks(audited, mesh, evidence, rows, no_reference);
   if (keep_rows_) keep_rows_();
   if (no_reference.empty() && interrupted() == 0) recognise(evidence, results, guesses_);
   if (interrupted() != 0) return;
-  const auto told = [&](std::string_view relation) { step(rows.subject, mesh.name, relation); };
+  const auto told = [&](std::string_view relation) {
+    if (!wants(audited, mesh, relation)) return false;
+    step(rows.subject, mesh.name, relation);
+    return true;
+  };
   if (related(mesh, judged)) {
     std::unique_lock lock(shared_->mutex);
     std::vector<Refusal>& refusals = shared_->refusals[{rows.subject, mesh.scheme()}];
     lock.unlock();
     for (Result& r : check_relations(audited, evidence, threads_, refusals, told))
       results.push_back(std::move(r));
-  } else if (!rows_of_relations(mesh, judged).empty()) {
-    told("determinism");
+  } else if (!rows_of_relations(mesh, judged).empty() && told("determinism")) {
     results.push_back(check_determinism(audited, evidence));
   }
 }
 
-void Auditor::run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference) {
+void Auditor::run_checks(const AuditSubject& audited, const AuditMesh& mesh, const Evidence& evidence,
+                         const Rows& rows, const std::string& no_reference) {
   const auto give_up = [&](const Check& check, const std::string& why) {
     for (const std::string_view row : check.rows) rows.add_lack(row, why);
     lack_ = why;
   };
   for (const Check& check : checks()) {
     if (interrupted() != 0) break;
+    // What is recognised is made of the row of positions.
+    const bool for_others = check.name == "positions" &&
+                            (wants(audited, mesh, "recognised") || wants(audited, mesh, "refined-positions"));
+    if (!for_others && std::none_of(check.rows.begin(), check.rows.end(),
+                                    [&](std::string_view row) { return wants(audited, mesh, row); }))
+      continue;
     step(rows.subject, rows.mesh, check.name);
     if (check.needs_reference && !no_reference.empty()) {
       give_up(check, no_reference);

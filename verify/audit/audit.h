@@ -49,6 +49,10 @@ class Auditor {
   /// the host lacks: what could not be looked at has rows that say so. `mesh` is valid (data/validate.h).
   std::vector<Result> run(const AuditSubject& subject, const AuditMesh& mesh);
 
+  /// Leaves out the rows of a subject on a mesh that `wanted` does not say.
+  using Wanted = std::function<bool(const AuditSubject&, const AuditMesh&, std::string_view check)>;
+  void judge_only(Wanted wanted) { shared_->wanted = std::move(wanted); }
+
   /// Whether an interrupt left something out.
   bool gave_up() const { return gave_up_; }
   /// From now on an interrupt does not wait for a check, or a subject in this process, that takes longer than
@@ -68,7 +72,7 @@ class Auditor {
   std::vector<Result> run(const std::vector<AuditSubject>& subjects, const std::vector<AuditMesh>& meshes,
                           Journal* journal = nullptr);
 
-  /// The rows of a subject on a mesh, one for each check whatever becomes of it.
+  /// The rows of a subject on a mesh, one for each check that is wanted, whatever becomes of it.
   std::vector<std::string> row_names(const AuditSubject& subject, const AuditMesh& mesh) const;
 
  private:
@@ -76,6 +80,7 @@ class Auditor {
   // What all that work at an audit have in common.
   struct Shared {
     std::function<void(const AuditStep&)> on_step;
+    Wanted wanted;
     std::mutex mutex;
     std::size_t done = 0, total = 1;
     std::map<std::pair<std::string, data::Scheme>, std::vector<Refusal>> refusals;  // of each subject, once
@@ -95,7 +100,8 @@ class Auditor {
 
   // Adds rows to `results` as they come, so that an interrupt keeps those that are there.
   void judge(const AuditSubject& subject, const AuditMesh& mesh, std::vector<Result>& results);
-  void run_checks(const Evidence& evidence, const Rows& rows, const std::string& no_reference);
+  void run_checks(const AuditSubject& subject, const AuditMesh& mesh, const Evidence& evidence,
+                  const Rows& rows, const std::string& no_reference);
   // Adds each row that is still missing, and why: out of memory, or interrupted. If nothing was begun it is one
   // row: at a signal there may be thousands of such pairs, and a second to write a report.
   void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool begun, const std::string& lack,
@@ -105,6 +111,9 @@ class Auditor {
   // The rows of relations of the audit of a mesh.
   std::vector<std::string_view> rows_of_relations(const AuditMesh& mesh,
                                                   const data::ControlMesh& judged) const;
+  bool wants(const AuditSubject& subject, const AuditMesh& mesh, std::string_view check) const {
+    return !shared_->wanted || shared_->wanted(subject, mesh, check);
+  }
   int depth_of(const AuditMesh& mesh) const { return mesh.depth < 0 ? depth_ : mesh.depth; }
   ReferenceSurface& reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
                               const lc_capabilities& capabilities);

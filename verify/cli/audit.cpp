@@ -7,7 +7,6 @@
 #include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "data/bounding_box.h"
 #include "data/error.h"
@@ -32,8 +31,11 @@ std::string report_file(const AuditArguments& a, const char* type) {
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
-std::vector<verify::AuditSubject> subjects(const AuditArguments& a, SubjectLoader& loader) {
+std::vector<verify::AuditSubject> subjects(const Job& job, SubjectLoader& loader) {
+  const AuditArguments& a = job.arguments;
   std::vector<verify::AuditSubject> list;
+  for (const std::string& again : job.again.subjects) list.push_back(loader.open(again));
+  if (!list.empty()) return list;
   if (a.subject == "all") {
     if (!a.options.empty()) throw data::ArgumentError("--option needs one subject, not all");
     for (const lc_subject* s : verify::built_in_subjects()) {
@@ -72,15 +74,16 @@ void check_json(const std::string& json) {
 }
 
 // The header of the report.
-verify::Report begin_report(const AuditArguments& a, const verify::Depths& depths,
-                            const std::optional<Sampling>& sampling,
-                            const std::vector<verify::AuditSubject>& subjects,
+verify::Report begin_report(const Job& job, const std::vector<verify::AuditSubject>& subjects,
                             const std::vector<verify::AuditMesh>& meshes) {
+  const AuditArguments& a = job.arguments;
   verify::Report report;
   report.version = LIMITCHECK_VERSION;
-  report.depths = a.plan ? "plan" : depths.kind == "file" ? depths.text() : depths.kind;
-  report.seed = depths.seed;
-  if (sampling) report.sample = fmt::format("{}:{}", sampling->faces, sampling->seed);
+  report.depths = a.plan ? "plan" : job.depths.kind == "file" ? job.depths.text() : job.depths.kind;
+  report.seed = job.depths.seed;
+  report.left_out = job.left_out;
+  report.rerun = a.rerun;
+  if (job.sampling) report.sample = fmt::format("{}:{}", job.sampling->faces, job.sampling->seed);
   for (const auto& s : subjects) {
     report.subjects.push_back(s.label());
     if (s.subject->description != nullptr) report.descriptions[s.label()] = s.subject->description;
@@ -96,43 +99,6 @@ verify::Report begin_report(const AuditArguments& a, const verify::Depths& depth
   return report;
 }
 
-// --sample; nothing for an empty text.
-std::optional<Sampling> parse_sample(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  Sampling sampling;
-  if (read_numbers(text, ':', sampling.faces, sampling.seed) == 0 || sampling.faces == 0)
-    throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
-  return sampling;
-}
-
-// What a shard does not do: what needs all rows, and what has no units.
-void refuse_with_shards(const AuditArguments& a) {
-  if (a.shard.of().is_whole()) return;
-  a.shard.check();
-  for (const auto& [option, given] :
-       {std::pair{"--baseline", !a.output.baseline.empty()},
-        std::pair{"--save-baseline", !a.output.save_baseline.empty()},
-        std::pair{"--waivers", !a.output.waivers.empty()}, std::pair{"--require", !a.output.required.empty()},
-        std::pair{"--require-coverage", a.output.require_coverage}})
-    if (given)
-      throw data::ArgumentError(
-          fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
-  if (a.must_refuse) throw data::ArgumentError("--must-refuse has no shards");
-  if (!a.report.empty()) throw data::ArgumentError("--report needs the whole report, and a shard is a part");
-}
-
-// With finished files what has no effect there is refused, whatever options there will be: nobody is to think that
-// it was done.
-void refuse_with_files(const CLI::App& command) {
-  static const std::set<std::string> kOfBoth{"--scheme",   "--triangulate",   "--threads", "--json",
-                                             "--details",  "--require",       "--junit",   "--waivers",
-                                             "--baseline", "--save-baseline", "--html",    "--witnesses"};
-  for (const CLI::Option* option : command.get_options())
-    if (option->count() > 0 && option->get_group() != kFilesGroup && !kOfBoth.contains(option->get_name()))
-      throw data::ArgumentError(
-          fmt::format("{} has no effect on finished tessellations (--tessellation)", option->get_name()));
-}
-
 Job job_of(AuditArguments a) {
   refuse_one_file_for_two({{"--json", a.shard.json},
                            {"--junit", a.output.junit},
@@ -141,9 +107,15 @@ Job job_of(AuditArguments a) {
   Job job;
   job.depths = verify::parse_depths(a.depths);
   job.sampling = parse_sample(a.sample);
+  job.left_out = left_out_by(a.checks);
+  if (!a.rerun.empty()) {
+    job.again = findings_of(a.rerun);
+    a.output.baseline = a.rerun;
+    a.output.level = "thorough";  // small or large, what had findings is looked at
+  }
   take_program(a.from, a.subject, a.meshes);
   take_mesh(a.from, a.subject, a.meshes);
-  job.whole = a.subject.empty();
+  job.whole = a.subject.empty() && a.rerun.empty();
   if (job.whole) a.subject = "all";
   refuse_with_shards(a);
   if (a.must_refuse && (job.whole || a.meshes.empty()))
@@ -235,13 +207,21 @@ int audit(const Job& job) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(a.threads));
   SubjectLoader loader(a.from);
-  const std::vector<verify::AuditSubject> audited = subjects(a, loader);
+  if (!a.rerun.empty() && job.again.findings.empty()) {
+    say("{} has no findings: nothing is looked at again\n", a.rerun);
+    return kHeld;
+  }
+  const std::vector<verify::AuditSubject> audited = subjects(job, loader);
   Progress progress;
   const AuditedMeshes asked = meshes_of(job, audited, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
-  verify::Report report = begin_report(a, job.depths, job.sampling, audited, meshes);
-  const verify::CoverageQuestion coverage =
-      a.must_refuse ? verify::CoverageQuestion{} : verify::coverage_question(audited, meshes);
+  verify::Report report = begin_report(job, audited, meshes);
+  const auto left_out = [&](std::string_view check) {
+    return std::find(job.left_out.begin(), job.left_out.end(), check) != job.left_out.end();
+  };
+  const verify::CoverageQuestion coverage = a.must_refuse || !a.rerun.empty() || left_out("positions")
+                                                ? verify::CoverageQuestion{}
+                                                : verify::coverage_question(audited, meshes);
 
   // Look.
   const verify::InterruptGuard guard;
@@ -253,6 +233,11 @@ int audit(const Job& job) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
       job.level());
+  if (!a.rerun.empty() || !job.left_out.empty())
+    auditor.judge_only(
+        [&](const verify::AuditSubject& s, const verify::AuditMesh& m, std::string_view check) {
+          return a.rerun.empty() ? !left_out(check) : job.again.has(s.label(), m, check);
+        });
   auditor.leave_what_is_interrupted();
   ShardArguments kept = a.shard;
   if (kept.json.empty()) kept.json = report_file(a, "json");
@@ -356,6 +341,14 @@ void add_audit(CLI::App& app, int& exit_code) {
             "Audit every tagged neighbourhood up to so many faces around a vertex, of what SUBJECT does, at "
             "depths 0, 1 and 2; 8 takes about half an hour a scheme on one core")
       ->check(CLI::Range(3, 10));
+  add_value(*command, "--checks", a->checks, "CHECK,...",
+            "Look at these checks alone, or with a minus at all but these: positions,normals or "
+            "-determinism,-state. Whether the subject tessellates is looked at always")
+      ->expected(1);
+  add_value(*command, "--rerun", a->rerun, "REPORT",
+            "Look again at what had findings in an earlier audit's --json, and at nothing else, and say how "
+            "much of it is gone and still there")
+      ->check(CLI::ExistingFile);
   add_subject_settings(*command, a->options);
   command->add_option("--threads", a->threads, "The largest number of threads (default: all)")
       ->check(CLI::Range(1, 4096));
@@ -382,7 +375,7 @@ void add_audit(CLI::App& app, int& exit_code) {
     check_json(a->shard.json);
     if (explained(a->output)) return;
     a->plan = depth->count() + depths->count() + sample->count() == 0;
-    if (!files->tessellations.empty()) refuse_with_files(*command);
+    refuse_what_has_no_effect(*command, *a, !files->tessellations.empty());
     exit_code = files->tessellations.empty() ? audit(job_of(*a)) : audit_files(*files, *a);
   });
 }

@@ -13,6 +13,7 @@
 
 #include "data/io/read.h"
 #include "verify/audit/audit.h"
+#include "verify/cli/mesh_options.h"
 #include "verify/cli/screen.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/cli/units.h"
@@ -58,6 +59,8 @@ struct Sampling {
   std::size_t faces = 0;
   std::uint64_t seed = 1;
 };
+/// Nothing for an empty text.
+std::optional<Sampling> parse_sample(const std::string& text);
 
 struct AuditArguments {
   std::string subject;
@@ -65,8 +68,9 @@ struct AuditArguments {
   data::ReadOptions mesh;
   int depth = 4;
   std::string depths = "uniform", sample;
-  bool plan = true;    // what is to be looked at is not said: neither meshes nor depths
-  int exhaustive = 0;  // every neighbourhood of so many faces; 0: it is not asked for
+  std::string checks, rerun;  // --checks as it is written; the report of --rerun
+  bool plan = true;           // what is to be looked at is not said: neither meshes nor depths
+  int exhaustive = 0;         // every neighbourhood of so many faces; 0: it is not asked for
   int threads = 0;
   ShardArguments shard;  // with the file of the report
   std::string report;    // folder of the report in all its forms; empty: none
@@ -75,11 +79,27 @@ struct AuditArguments {
   SubjectArguments from;
 };
 
+/// The checks of subjects that --checks leaves out: all but those that it names, or those behind a minus. Throws
+/// data::ArgumentError: there is no such check.
+std::vector<std::string> left_out_by(const std::string& checks);
+
+/// What --rerun looks at again: the findings and breakdowns of an earlier report, and whose they are.
+struct Rerun {
+  std::vector<verify::Result> findings;
+  std::vector<std::string> subjects;
+  /// Whether a check of a subject on a mesh is among them; `tessellates` where any is.
+  bool has(const std::string& subject, const verify::AuditMesh& mesh, std::string_view check) const;
+};
+/// Throws data::ArgumentError: the file is no report of an audit of subjects.
+Rerun findings_of(const std::string& file);
+
 /// The arguments as checked and completed before the first subject is called.
 struct Job {
   AuditArguments arguments;  // with SUBJECT and --threads filled in
   verify::Depths depths;
   std::optional<Sampling> sampling;
+  std::vector<std::string> left_out;  // by --checks
+  Rerun again;
   bool whole = false;  // no subject was named: all of them, and the report in a file of its own
   verify::Level level() const;
 };
@@ -92,6 +112,21 @@ struct AuditedMeshes {
 /// Those that are named, every neighbourhood (data/generators/every_neighbourhood.h) at depths 0, 1 and 2, or the
 /// default plan (verify/audit/default_plan.h): of both schemes what the subjects do or, with --scheme, of one. Throws data::ArgumentError and data::InputError.
 AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited, Progress& progress);
+
+/// One that is named, with a depth and as --depths and --sample say.
+struct OpenedAuditMesh {
+  verify::AuditMesh mesh;
+  MeshScheme chosen;
+};
+OpenedAuditMesh open_audit_mesh(const std::string& name, const data::ReadOptions& options, int depth,
+                                const std::string& depths, const std::optional<Sampling>& sampling);
+/// Those of an earlier report's findings.
+AuditedMeshes meshes_again(const Rerun& again);
+/// What a shard does not do, what needs all rows, and what has no units is refused: data::ArgumentError.
+void refuse_with_shards(const AuditArguments& arguments);
+/// With finished files, --rerun and --must-refuse what has no effect there is refused, whatever options there will be:
+/// nobody is to think that it was done. Throws data::ArgumentError.
+void refuse_what_has_no_effect(const CLI::App& command, const AuditArguments& arguments, bool files);
 
 /// Throws data::ArgumentError if the points that the audit looks at take more memory than the machine has: hours of
 /// swapping would end without a report.

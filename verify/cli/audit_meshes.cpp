@@ -39,9 +39,20 @@ namespace fs = std::filesystem;
 // Measured with bumpy:4000 at depth 5: 358 to 579 bytes a point.
 constexpr double kBytesPerPoint = 350;
 
-OpenedMesh open_broken_mesh(const std::string& file, const data::ReadOptions& options) {
-  data::io::Examination found = verify::read_broken_mesh(file, options);
-  return {std::move(found.mesh), {found.scheme, found.cut}};
+// As it is opened, for an audit.
+OpenedAuditMesh audit_mesh(const std::string& name, OpenedMesh opened, const data::ReadOptions& options,
+                           int depth, const std::string& depths) {
+  verify::AuditMesh m{name, std::move(opened.mesh)};
+  m.asked_scheme = opened.chosen.scheme;
+  if (opened.chosen.cut > 0) m.triangulated = word(options.polygons);
+  m.depth = depth;
+  m.depths = depths;
+  return {std::move(m), opened.chosen};
+}
+
+OpenedAuditMesh open_broken_mesh(const std::string& file, const AuditArguments& a) {
+  data::io::Examination found = verify::read_broken_mesh(file, a.mesh);
+  return audit_mesh(file, {std::move(found.mesh), {found.scheme, found.cut}}, a.mesh, a.depth, a.depths);
 }
 
 // Where no mesh is named and a depth is: Loop's shapes, and the quads and polygons of the plan, of the
@@ -139,22 +150,12 @@ AuditedMeshes open_meshes(const Job& job, const std::vector<verify::AuditSubject
   std::vector<MeshScheme> chosen;
   for (const std::string& name : names) {
     progress.show(0, 1, "mesh " + name);
-    OpenedMesh opened = a.must_refuse ? open_broken_mesh(name, a.mesh) : open_control_mesh(name, a.mesh);
-    chosen.push_back(opened.chosen);
-    verify::AuditMesh m{name, std::move(opened.mesh)};
-    m.asked_scheme = opened.chosen.scheme;
-    if (opened.chosen.cut > 0) m.triangulated = word(a.mesh.polygons);
-    m.depth = a.depth;
-    m.relations = job.level() != verify::Level::kQuick;
-    m.depths = job.depths.text();
-    if (!a.must_refuse) {
-      verify::require_range(name, m.mesh, true);
-      m.face_depth = verify::face_depths(job.depths, m.mesh, a.depth);
-      if (job.sampling)
-        m.sample = std::make_shared<verify::MeshSample>(m.mesh, job.sampling->faces, job.sampling->seed);
-      refuse_too_many_points(m);
-    }
-    meshes.push_back(std::move(m));
+    auto [mesh, scheme] = a.must_refuse
+                              ? open_broken_mesh(name, a)
+                              : open_audit_mesh(name, a.mesh, a.depth, job.depths.text(), job.sampling);
+    mesh.relations = job.level() != verify::Level::kQuick;
+    chosen.push_back(scheme);
+    meshes.push_back(std::move(mesh));
   }
   return {std::move(meshes), scheme_line(chosen, a.mesh)};
 }
@@ -174,8 +175,20 @@ std::string content(const data::ControlMesh& mesh) {
 
 }  // namespace
 
+OpenedAuditMesh open_audit_mesh(const std::string& name, const data::ReadOptions& options, int depth,
+                                const std::string& depths, const std::optional<Sampling>& sampling) {
+  OpenedAuditMesh opened = audit_mesh(name, open_control_mesh(name, options), options, depth, depths);
+  verify::AuditMesh& m = opened.mesh;
+  verify::require_range(name, m.mesh, true);
+  m.face_depth = verify::face_depths(verify::parse_depths(depths), m.mesh, depth);
+  if (sampling) m.sample = std::make_shared<verify::MeshSample>(m.mesh, sampling->faces, sampling->seed);
+  refuse_too_many_points(m);
+  return opened;
+}
+
 AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited,
                         Progress& progress) {
+  if (!job.arguments.rerun.empty()) return meshes_again(job.again);
   if (job.arguments.exhaustive > 0)
     return every_neighbourhood(job.arguments.mesh, job.arguments.exhaustive, audited.front());
   return job.arguments.plan ? planned_meshes(job.arguments.mesh, job.level(), audited)

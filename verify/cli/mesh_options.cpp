@@ -61,6 +61,12 @@ std::string word(data::Triangulation polygons) {
   return word_of(kTriangulations, polygons);
 }
 
+data::Triangulation triangulation(const std::string& word) {
+  for (const auto& [known, polygons] : kTriangulations)
+    if (known == word) return polygons;
+  return data::Triangulation::kKeep;
+}
+
 OpenedMesh open_control_mesh(const std::string& file_or_name, const data::ReadOptions& options) {
   data::ReadOptions how = without_scheme(options);
   how.leave_out_unused = true;

@@ -21,6 +21,8 @@ CLI::Option* add_scheme(CLI::App& command, std::optional<data::Scheme>& scheme, 
 void add_mesh_options(CLI::App& command, data::ReadOptions& options);
 /// "fan", "shortest-diagonal"; empty: polygons are kept.
 std::string word(data::Triangulation polygons);
+/// Of a word of these.
+data::Triangulation triangulation(const std::string& word);
 
 /// Which scheme a mesh was opened for, and at what price.
 struct MeshScheme {

@@ -332,11 +332,11 @@ Result check_determinism(const AuditSubject& subject, const Evidence& e) {
 
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
                                     std::vector<Refusal>& refusals,
-                                    const std::function<void(std::string_view)>& on_row) {
+                                    const std::function<bool(std::string_view)>& on_row) {
   const Relations relations(subject, e, threads);
   std::vector<Result> results;
   const auto add = [&](std::string_view name, const std::function<Result()>& find) {
-    if (on_row) on_row(name);
+    if (on_row && !on_row(name)) return;
     const Clock clock;
     try {
       results.push_back(find());
@@ -355,7 +355,10 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
   for (const Relation& r : sharp_relations())
     if (r.applies(e.mesh, e.lattice)) add(r.row, [&] { return relations.relation(r); });
   if (has_semi_sharp(e.mesh)) add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
-  add("state", [&] { return relations.state(results.front()); });
+  add("state", [&] {
+    const bool asked = !results.empty() && results.front().check == "determinism";
+    return relations.state(asked ? results.front() : relations.determinism());
+  });
   add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
   add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });
   return results;

@@ -51,9 +51,9 @@ Result check_determinism(const AuditSubject& subject, const Evidence& e);
 /// subject does throws: a process that dies or hangs in one request makes its row a crash or a timeout, with
 /// the input that did it, and the next request gets a new process.
 ///   refusals  what the subject made of broken_meshes(); asked for if empty: it is the same for each mesh
-///   on_row    called with the name of each row before it is looked at
+///   on_row    called with the name of each row before it is looked at; false: the row is left out
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
                                     std::vector<Refusal>& refusals,
-                                    const std::function<void(std::string_view)>& on_row = {});
+                                    const std::function<bool(std::string_view)>& on_row = {});
 
 }  // namespace limitcheck::verify

@@ -26,7 +26,7 @@ constexpr std::string_view kTitle = "limitcheck baseline 1";
 
 struct Comparison {
   std::vector<std::string> appeared, worse, gone;
-  std::int64_t same = 0;
+  std::int64_t same = 0, before = 0;  // before: of a report, its findings
 };
 
 std::string worst_text(const std::optional<double>& worst) {
@@ -38,23 +38,6 @@ std::string worst_text(const std::optional<double>& worst) {
 using Key = std::tuple<std::string, std::string, Case>;  // subject, check
 Key key_of(const Result& r) {
   return {r.subject, r.check, case_of(r)};
-}
-
-std::map<Key, Result> baseline_rows(const std::string& text, const std::string& file) try {
-  const nlohmann::json json = data::parse_untrusted(text);
-  if (!json.is_object() || json.value("program", nlohmann::json()) != "limitcheck audit" ||
-      !json.contains("results") || !json["results"].is_array())
-    throw data::ArgumentError(
-        fmt::format("--baseline {}: no report that limitcheck audit --json or --save-baseline wrote", file));
-  std::map<Key, Result> rows;
-  for (const nlohmann::json& row : json["results"]) {
-    for (const char* key : {"subject", "mesh", "check", "status", "count", "of", "worst"}) (void)row.at(key);
-    Result known = reported_row(row);
-    rows[key_of(known)] = std::move(known);
-  }
-  return rows;
-} catch (const nlohmann::json::exception& error) {
-  throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
 }
 
 bool is_worse(const Result& now, const Result& before) {
@@ -70,8 +53,13 @@ bool is_worse(const Result& now, const Result& before) {
   return worst(now) > kWorse * worst(before) || share(now) > kWorse * share(before);
 }
 
-Comparison compare(const Report& report, const std::map<Key, Result>& before) {
+Comparison compare(const Report& report, const std::vector<Result>& rows) {
   Comparison c;
+  std::map<Key, Result> before;
+  for (const Result& r : rows) {
+    before[key_of(r)] = r;
+    c.before += is_bad(r);
+  }
   for (const Result& r : report.results) {
     const auto found = before.find(key_of(r));
     const bool was =
@@ -161,16 +149,33 @@ Comparison compare(const Report& report, const Sums& before) {
 
 }  // namespace
 
+std::vector<Result> reported_rows(const std::string& text, const std::string& file) try {
+  const nlohmann::json json = data::parse_untrusted(text);
+  if (!json.is_object() || json.value("program", nlohmann::json()) != "limitcheck audit" ||
+      !json.contains("results") || !json["results"].is_array())
+    throw data::ArgumentError(
+        fmt::format("{}: no report that limitcheck audit --json or --save-baseline wrote", file));
+  std::vector<Result> rows;
+  for (const nlohmann::json& row : json["results"]) {
+    for (const char* key : {"subject", "mesh", "check", "status", "count", "of", "worst"}) (void)row.at(key);
+    rows.push_back(reported_row(row));
+  }
+  return rows;
+} catch (const nlohmann::json::exception& error) {
+  throw data::ArgumentError(fmt::format("{}: {}", file, error.what()));
+}
+
 void compare_with_baseline(Report& report, const std::string& text, const std::string& file) {
   const bool is_text = text.starts_with(kTitle);
   const Comparison c =
-      is_text ? compare(report, baseline_sums(text, file)) : compare(report, baseline_rows(text, file));
+      is_text ? compare(report, baseline_sums(text, file)) : compare(report, reported_rows(text, file));
   Report::Changes changes;
   changes.baseline = file;
   changes.appeared = static_cast<std::int64_t>(c.appeared.size());
   changes.worse = static_cast<std::int64_t>(c.worse.size());
   changes.gone = static_cast<std::int64_t>(c.gone.size());
   changes.same = c.same;
+  changes.before = c.before;
   for (const auto* list : {&c.appeared, &c.worse, &c.gone})
     changes.named.insert(changes.named.end(), list->begin(), list->end());
   report.changes = std::move(changes);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "verify/row/result.h"
 
@@ -10,6 +11,10 @@ namespace limitcheck::verify {
 
 /// A finding is worse if its worst value, or how often it shows, is more than so many times that of the baseline.
 inline constexpr double kWorse = 1.1;
+
+/// The rows of a report that --json has written. Throws data::ArgumentError: `text` is none.
+///   file   what it is called
+std::vector<Result> reported_rows(const std::string& text, const std::string& file);
 
 /// Compares a report with that of an earlier audit, and fills in report.changes. Of the report as --json writes it, row by
 /// row of the same subject, mesh, depths and check; of a text by to_baseline(), by subject and check:

@@ -290,6 +290,8 @@ std::string to_json(const Report& report, const std::string& level) {
               {"containment", shown(report.containment)},
               {"receipts", Ordered::array()},
               {"incomplete", shown(report.incomplete)},
+              {"left_out", report.left_out},
+              {"rerun", shown(report.rerun)},
               {"printed", shown(report.printed)},
               {"changes", changes(report)},
               {"never_judged", Ordered::array()}};
@@ -371,6 +373,7 @@ Json header_json(const Report& report) {
   return {{"version", report.version},   {"depth", report.depth},
           {"depths", report.depths},     {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
           {"sample", report.sample},     {"meshes", kept(report.meshes)},
+          {"left_out", report.left_out}, {"rerun", report.rerun},
           {"subjects", report.subjects}, {"descriptions", report.descriptions}};
 }
 
@@ -378,6 +381,8 @@ Report header_of(const Json& json) {
   Report report;
   json.at("version").get_to(report.version), data::read_value(json.at("depth"), report.depth);
   json.at("depths").get_to(report.depths), data::read_value(json.at("sample"), report.sample);
+  report.left_out = json.value("left_out", report.left_out);
+  report.rerun = json.value("rerun", report.rerun);
   if (!json.at("seed").is_null()) report.seed = data::value_of<std::uint64_t>(json.at("seed"));
   read(json.at("meshes"), report.meshes);
   json.at("subjects").get_to(report.subjects), json.at("descriptions").get_to(report.descriptions);

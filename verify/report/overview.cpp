@@ -112,6 +112,16 @@ std::string header(const Report& report) {
       faces);
   if (!report.containment.empty())
     out += fmt::format("subjects in processes of their own: {}\n", report.containment);
+  if (report.left_out.empty()) return out;
+  std::vector<std::string_view> kept;
+  for (const CheckGroup& g : check_groups())
+    for (const std::string_view check : g.checks)
+      if (std::find(report.left_out.begin(), report.left_out.end(), check) == report.left_out.end())
+        kept.push_back(check);
+  out += kept.size() < report.left_out.size()
+             ? fmt::format("only these checks, {} are left out and not judged: {}\n", report.left_out.size(),
+                           fmt::join(kept, ", "))
+             : fmt::format("left out and not judged: {}\n", fmt::join(report.left_out, ", "));
   return out;
 }
 
@@ -161,6 +171,13 @@ std::string changes_line(const Report& report) {
   const auto& c = *report.changes;
   std::string out = fmt::format("since {}: {} new, {} worse, {} gone, {} as before\n", c.baseline, c.appeared,
                                 c.worse, c.gone, c.same);
+  if (!report.rerun.empty()) {
+    const std::int64_t there = c.same + c.worse, missed = c.before - c.gone - there;
+    out = fmt::format("of {} findings in {}: {} gone, {} still there{}{}{}\n", c.before, c.baseline, c.gone,
+                      there, c.worse > 0 ? fmt::format(" ({} worse)", c.worse) : "",
+                      missed > 0 ? fmt::format(", {} not judged", missed) : "",
+                      c.appeared > 0 ? fmt::format("; {} new", c.appeared) : "");
+  }
   constexpr std::size_t kNamed = 8;
   for (std::size_t k = 0; k < c.named.size() && k < kNamed; ++k) out += "  " + c.named[k] + "\n";
   if (c.named.size() > kNamed) out += fmt::format("  and {} more\n", c.named.size() - kNamed);
@@ -221,7 +238,9 @@ std::vector<Unjudged> unjudged(const Report& report, const std::vector<std::stri
   std::vector<Unjudged> missing;
   for (const std::string& subject : report.subjects)
     for (const std::string& check : checks) {
-      Unjudged none{subject, check, "", false};
+      const bool left_out =
+          std::find(report.left_out.begin(), report.left_out.end(), check) != report.left_out.end();
+      Unjudged none{subject, check, left_out ? "left out by --checks" : "", false};
       bool judged = false;
       for (const Result& r : report.results) {
         if (r.subject != subject || r.check != check) continue;

@@ -218,6 +218,8 @@ struct Report {
                                       // other (default_plan.h); "file": unknown
   std::optional<std::uint64_t> seed;  // of random
   std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
+  std::vector<std::string> left_out;  // checks, by --checks
+  std::string rerun;                  // the report whose findings alone are looked at again; empty: all are
   std::vector<Mesh> meshes;
   std::vector<std::string> subjects;
   std::map<std::string, std::string> descriptions;  // of subjects, by their label: "OpenSubdiv 3.5 Far: ..."
@@ -234,9 +236,10 @@ struct Report {
   struct Changes {
     std::string baseline;  // its file
     std::int64_t appeared = 0, worse = 0, gone = 0, same = 0;
+    std::int64_t before = 0;         // findings that it had, of a report
     std::vector<std::string> named;  // each that is new, worse or gone, in that order
   };
-  std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held
+  std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held, unless `rerun`
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
   bool looked() const { return std::any_of(results.begin(), results.end(), looked_at); }
@@ -247,7 +250,7 @@ struct Report {
   }
   bool held() const {
     if (!incomplete.empty() || !host_sufficed()) return false;
-    if (changes) return changes->appeared + changes->worse == 0;
+    if (changes && rerun.empty()) return changes->appeared + changes->worse == 0;
     return std::none_of(results.begin(), results.end(), is_bad);
   }
 };

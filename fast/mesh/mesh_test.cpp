@@ -18,7 +18,7 @@
 #include "data/test_support/assertions.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/cut_mesh.h"
-#include "fast/test_support/quad_refinement.h"
+#include "fast/test_support/refined_mesh.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -164,7 +164,7 @@ long double distance(const std::array<double, 3>& p, const Point& q) {
 TEST(SharpPolygons, StepAsTheWholeMeshInLongDouble) {
   for (const auto& mesh : assorted()) {
     SharpPolygons ours = SharpPolygons::of(mesh);
-    RefinedPolygons theirs = RefinedPolygons::of(mesh);
+    RefinedMesh theirs = RefinedMesh::of(mesh, data::Scheme::kCatmullClark);
     for (int step = 0; step < 4 && ours.faces.size() < 20000; ++step) {
       ours = ours.step();
       theirs = theirs.step();
@@ -176,7 +176,7 @@ TEST(SharpPolygons, StepAsTheWholeMeshInLongDouble) {
         for (std::size_t k = 0; k < 4; ++k) {
           ASSERT_EQ(ours.faces[f][k], theirs.faces[f][k]);
           const auto at =
-              theirs.sharp_edges.find(RefinedPolygons::edge(ours.faces[f][k], ours.faces[f][(k + 1) % 4]));
+              theirs.sharp_edges.find(RefinedMesh::edge(ours.faces[f][k], ours.faces[f][(k + 1) % 4]));
           const double s = ours.side[4 * f + k];
           if (at == theirs.sharp_edges.end())
             ASSERT_LE(s, 1e-15);

@@ -13,7 +13,7 @@
 #include "fast/rules/quad_limit_impl.h"
 #include "fast/rules/ring.h"
 #include "fast/rules/vertex_limit.h"
-#include "fast/test_support/global_refinement.h"
+#include "fast/test_support/refined_mesh.h"
 #include "fast/test_support/test_meshes.h"
 
 namespace limitcheck::fast {
@@ -37,7 +37,7 @@ Ring bumpy_ring(int n, bool open) {
 }
 
 data::ControlMesh refined_once(const data::ControlMesh& mesh) {
-  const RefinedMesh refined = RefinedMesh::of(mesh, 1);
+  const RefinedMesh refined = RefinedMesh::of(mesh, data::Scheme::kLoop).step();
   data::ControlMesh fine;
   for (const Point& p : refined.points)
     fine.positions.push_back(

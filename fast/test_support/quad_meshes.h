@@ -11,7 +11,6 @@
 
 #include "data/control_mesh.h"
 #include "data/generators/polygon_meshes.h"
-#include "fast/test_support/quad_refinement.h"
 #include "fast/test_support/shared_points.h"
 
 namespace limitcheck::fast::row_stream {

@@ -12,7 +12,7 @@
 #include "data/generators/sharp_meshes.h"
 #include "data/splitmix64.h"
 #include "fast/test_support/exact_weld.h"
-#include "fast/test_support/quad_refinement.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/tessellator.h"
 
@@ -94,24 +94,6 @@ TEST(QuadFrame, HasCracksIfNobodyRepairsThem) {
   EXPECT_GT(weld(triangles_of(list), true).open, 0);
 }
 
-template <class Real, class Output>
-void expect_on_the_limit(const std::vector<RefinedPolygons>& level, const Output& out, double bound,
-                         int& judged, const std::string& what) {
-  ASSERT_EQ(out.provenance.size(), out.vertices.size());
-  std::map<int, std::optional<Point>> limits;  // by vertex of the finest mesh: old vertices keep their number
-  for (std::size_t i = 0; i < out.vertices.size(); ++i) {
-    const auto& p = out.vertices[i].position;
-    const int v = vertex_at(level, out.provenance[i]);
-    auto at = limits.find(v);
-    if (at == limits.end()) at = limits.emplace(v, level.back().limit(v)).first;
-    if (!at->second) continue;
-    ++judged;
-    ASSERT_LE(norm(Point{p.x, p.y, p.z} - *at->second), bound)
-        << what << ", face " << out.provenance[i].face << ":" << out.provenance[i].corner << " ("
-        << out.provenance[i].i << ", " << out.provenance[i].j << ") / " << out.provenance[i].denominator;
-  }
-}
-
 TEST(QuadFrame, EveryPointLiesWhereItsProvenanceSays) {
   int judged = 0, which = 0;
   std::vector<Shape> all = shapes();
@@ -121,8 +103,7 @@ TEST(QuadFrame, EveryPointLiesWhereItsProvenanceSays) {
   }
   for (const Shape& shape : all) {
     const std::string what = "shape " + std::to_string(which++);
-    std::vector<RefinedPolygons> level{RefinedPolygons::of(shape.mesh)};
-    while (level.size() < 5) level.push_back(level.back().step());
+    const RefinedLevels exact(shape.mesh, data::Scheme::kCatmullClark, 4);
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       Tessellator<double> tessellator(shape.mesh, quads(repair));
       const auto depth = random_depths(shape.mesh.faces.size(), 0, 3, 7);
@@ -130,8 +111,8 @@ TEST(QuadFrame, EveryPointLiesWhereItsProvenanceSays) {
       IndexedMesh<double> mesh;
       tessellator.frame(depth, list);
       tessellator.frame(depth, mesh);
-      expect_on_the_limit<double>(level, list, 1e-13, judged, what);
-      expect_on_the_limit<double>(level, mesh, 1e-13, judged, what);
+      judged += expect_on_the_limit(exact, list, 1e-13, what);
+      judged += expect_on_the_limit(exact, mesh, 1e-13, what);
     }
   }
   EXPECT_GT(judged, 20000);

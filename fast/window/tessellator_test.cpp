@@ -11,7 +11,7 @@
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/patch.h"
 #include "fast/test_support/exact_weld.h"
-#include "fast/test_support/global_refinement.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
@@ -43,32 +43,10 @@ std::vector<Shape> shapes() {
           {"single triangle", shaken(single_triangle(), .15, 10), 1}};
 }
 
-/// Worst distances to the whole mesh refined, over all vertices with lattice provenance.
-template <class Real, class Output>
-void expect_on_the_limit(const data::ControlMesh& mesh, const Output& out, double position_bound,
-                         double normal_bound, const std::string& what) {
-  std::map<std::uint32_t, RefinedMesh> refined;
-  long double position = 0, normal = 0;
-  ASSERT_EQ(out.provenance.size(), out.vertices.size());
-  for (std::size_t i = 0; i < out.vertices.size(); ++i) {
-    const LatticePoint& at = out.provenance[i];
-    const auto& v = out.vertices[i];
-    const Point p{v.position.x, v.position.y, v.position.z}, n{v.normal.x, v.normal.y, v.normal.z};
-    if (at.denominator == 3) continue;
-    if (refined.count(at.denominator) == 0)
-      refined[at.denominator] = RefinedMesh::of(mesh, static_cast<int>(std::bit_width(at.denominator)) - 1);
-    const RefinedMesh& fine = refined[at.denominator];
-    const auto expected = fine.limit(at);
-    position = std::max(position, norm(p - expected.position));
-    normal = std::max(normal, norm(n - expected.normal));
-  }
-  EXPECT_LE(position, position_bound) << what;
-  EXPECT_LE(normal, normal_bound) << what;
-}
-
 TEST(Sec5_Frame, EveryPointLiesWhereItsProvenanceSays) {
   for (const auto& [name, mesh, loops] : shapes()) {
     data::SplitMix64 random(11);
+    const RefinedLevels exact = RefinedLevels::loop(mesh, 3);
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       TessellatorOptions options{.provenance = true};
       options.cracks.repair = repair;
@@ -77,10 +55,10 @@ TEST(Sec5_Frame, EveryPointLiesWhereItsProvenanceSays) {
         const auto depth = random_depths(mesh.faces.size(), round % 2 == 0 ? 0 : -1, 3, random);
         DrawList<double> list;
         const FrameStats stats = tessellator.frame(depth, list);
-        expect_on_the_limit<double>(mesh, list, 1e-14, 1e-12, name);
+        expect_on_the_limit(exact, list, 1e-14, name, 1e-12);
         IndexedMesh<double> indexed;
         const FrameStats again = tessellator.frame(depth, indexed);
-        expect_on_the_limit<double>(mesh, indexed, 1e-14, 1e-12, name);
+        expect_on_the_limit(exact, indexed, 1e-14, name, 1e-12);
         EXPECT_EQ(stats.triangles, again.triangles);
         EXPECT_EQ(static_cast<std::size_t>(stats.triangles), indexed.triangles.size());
         EXPECT_EQ(static_cast<std::size_t>(stats.triangles), triangles_of(list).size());

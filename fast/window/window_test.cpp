@@ -16,7 +16,7 @@
 #include "data/numeral.h"
 #include "data/splitmix64.h"
 #include "data/test_support/known_answers.h"
-#include "fast/test_support/global_refinement.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/quad_edge.h"
 #include "fast/window/quad_window.h"
@@ -50,7 +50,7 @@ Worst compare(const data::ControlMesh& mesh, int depth) {
   const Adjacency adjacency(mesh);
   const PreparedMesh<N> prepared(adjacency, positions_of<N>(mesh));
   SlidingWindow<N> window(depth, adjacency.max_valence());
-  const RefinedMesh refined = RefinedMesh::of(mesh, depth);
+  const RefinedLevels refined = RefinedLevels::loop(mesh, depth);
   const int k = 1 << depth;
   Worst worst;
   for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h) {

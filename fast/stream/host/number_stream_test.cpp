@@ -16,7 +16,7 @@
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/host/number_stream.h"
 #include "fast/stream/kernel/kernel.h"
-#include "fast/test_support/global_refinement.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/test_support/test_numbers.h"
@@ -91,7 +91,7 @@ TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
     for (const int depth : {0, 1, 2, 4}) {
       const auto grids = grids_of(adjacency, depth);
       const auto found = linear_points<Rational>(adjacency, points, grids, depth);
-      const RefinedMesh expected = RefinedMesh::of(mesh, depth);
+      const RefinedLevels expected = RefinedLevels::loop(mesh, depth);
       const int size = 1 << depth;
       for (std::size_t v = 0; v < found.size(); ++v) {
         const int side = size + 1, inside = static_cast<int>(v) % (side * side);
@@ -99,7 +99,7 @@ TEST(NumberStream, InRationalsIsTheLimitSurfaceWithItsTangents) {
         const LatticePoint at =
             face_point(grids[v / static_cast<std::size_t>(side * side)], size, i, j, i <= j);
         if (at.face < 0) continue;
-        const RefinedMesh::Limit e = expected.limit(at);
+        const SurfaceLimit e = expected.limit(at);
         double p[3], a[3], b[3];
         for (std::size_t c = 0; c < 3; ++c) {
           p[c] = static_cast<double>(found[v].position[c]);

@@ -18,6 +18,7 @@
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/kernel/kernel.h"
 #include "fast/test_support/quad_meshes.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/window/quad_window.h"
 
@@ -59,13 +60,16 @@ double least_height(const data::ControlMesh& mesh) {
 void expect_the_limit_surface(const std::vector<NamedMesh>& meshes) {
   const auto worst_of = [](const data::ControlMesh& mesh, int depth) {
     const auto got = evaluate(mesh, depth, quad_kernels().front());
-    const RefinedQuads expected = RefinedQuads::of(mesh, depth);
+    const RefinedLevels expected(mesh, data::Scheme::kCatmullClark, depth);
     const int n = side(depth);
     Worst worst;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f)
       for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i)
-          worst.see(got[(f * n + j) * n + i], expected.limit(f, i, j), data::box_diagonal(mesh), f, i, j);
+        for (int i = 0; i < n; ++i) {
+          const LatticePoint at{static_cast<std::int32_t>(f), static_cast<std::uint32_t>(i),
+                                static_cast<std::uint32_t>(j), 1U << depth};
+          worst.see(got[(f * n + j) * n + i], expected.limit(at), data::box_diagonal(mesh), f, i, j);
+        }
     return worst;
   };
   expect_all_limits(meshes, 4, worst_of, least_height);

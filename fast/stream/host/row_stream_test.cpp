@@ -9,7 +9,7 @@
 
 #include "fast/frame/patch.h"
 #include "fast/stream/host/number_stream.h"
-#include "fast/test_support/global_refinement.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 
@@ -55,7 +55,7 @@ Worst worst_against_refinement(const data::ControlMesh& mesh, int depth, const K
   std::vector<Vertex> out(grids.size() * static_cast<std::size_t>(side(depth) * side(depth)));
   stream.whole(grids, depth, workspace, out.data());
 
-  const RefinedMesh expected = RefinedMesh::of(mesh, depth);
+  const RefinedLevels expected = RefinedLevels::loop(mesh, depth);
   const double scale = data::box_diagonal(mesh);
   Worst worst;
   for (std::size_t p = 0; p < grids.size(); ++p) {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +14,7 @@
 #include "fast/mesh/cut_mesh.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/test_support/exact_weld.h"
-#include "fast/test_support/global_refinement.h"
+#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/tessellator.h"
 
@@ -100,42 +98,11 @@ int loops_of(const data::ControlMesh& mesh) {
   return 0;
 }
 
-/// The limits of the vertices of a refined mesh, each computed once.
-struct Limits {
-  const RefinedMesh& refined;
-  std::map<int, std::optional<Point>> known{};
-
-  const std::optional<Point>& at(const LatticePoint& p) {
-    const int v = refined.lattice[p.face].at({static_cast<int>(p.i), static_cast<int>(p.j)});
-    const auto found = known.find(v);
-    return found != known.end() ? found->second : known.emplace(v, refined.sharp_limit(v)).first->second;
-  }
-};
-
-template <class Real>
-void expect_on_the_limit(Limits& limits, const std::vector<SurfaceVertex<Real>>& vertices,
-                         const std::vector<LatticePoint>& provenance, int depth, double bound, int& judged,
-                         const std::string& what) {
-  ASSERT_EQ(provenance.size(), vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    LatticePoint at = provenance[i];
-    if (at.denominator == 3) continue;  // the centre of a fan
-    const std::uint32_t finer = (1U << depth) / at.denominator;
-    at.i *= finer, at.j *= finer;
-    const auto& limit = limits.at(at);
-    if (!limit) continue;
-    ++judged;
-    const auto& p = vertices[i].position;
-    ASSERT_LE(norm(Point{p.x, p.y, p.z} - *limit), bound)
-        << what << ", face " << at.face << " (" << at.i << ", " << at.j << ") / " << (1 << depth);
-  }
-}
-
 constexpr int kDepth = 4;
 
 template <class Real, class Engine>
-void expect_the_surface(Engine&& engine, const Shape& shape, Limits& limits, double bound, int& judged,
-                        const std::string& what) {
+void expect_the_surface(Engine&& engine, const Shape& shape, const RefinedLevels& limits, double bound,
+                        int& judged, const std::string& what) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const auto depth = random_depths(shape.mesh.faces.size(), 0, kDepth, seed);
     DrawList<Real> list;
@@ -148,16 +115,15 @@ void expect_the_surface(Engine&& engine, const Shape& shape, Limits& limits, dou
       EXPECT_EQ(report.repeated, 0) << what;
       EXPECT_EQ(report.boundary_loops, loops_of(shape.mesh)) << what << ", seed " << seed;
     }
-    expect_on_the_limit<Real>(limits, list.vertices, list.provenance, kDepth, bound, judged, what);
-    expect_on_the_limit<Real>(limits, mesh.vertices, mesh.provenance, kDepth, bound, judged, what);
+    judged += expect_on_the_limit(limits, list, bound, what);
+    judged += expect_on_the_limit(limits, mesh, bound, what);
   }
 }
 
 TEST(SharpFrame, HasNoCracksAndLiesWhereItsProvenanceSays) {
   int judged = 0;
   for (const Shape& shape : shapes()) {
-    const RefinedMesh refined = RefinedMesh::of(shape.mesh, kDepth);
-    Limits limits{refined};
+    const RefinedLevels limits = RefinedLevels::loop(shape.mesh, kDepth);
     for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
       expect_the_surface<double>(Tessellator<double>(shape.mesh, options(repair)), shape, limits, 1e-14,
                                  judged, shape.name + ", window");

@@ -17,9 +17,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
 #include "reference/loop/naive.h"
-#include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
-#include "verify/host/host.h"
 #include "verify/peers/test_lattice.h"
 #include "verify/subject/registry.h"
 
@@ -42,35 +40,7 @@ const std::vector<Named> kAdapters{{"opensubdiv-far", ""},
                                    {"cgal", ""},
                                    {"openmesh", ""}};
 
-// Each control face is covered by 4^d triangles of the lattice, each once, corners on the face,
-// counter-clockwise.
-void expect_full_lattice(const data::ControlMesh& mesh, const Tessellation& t,
-                         const std::vector<int>& depth) {
-  std::vector<std::set<std::array<std::int64_t, 3>>> cells(mesh.faces.size());
-  for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
-    ASSERT_TRUE(t.triangle_ok(k));
-    const auto face = t.triangle_face()[k];
-    std::array<std::array<std::int64_t, 3>, 3> l{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto& p = t.provenance()[t.triangles()[k][c]];
-      const auto at = on_face(mesh, p, face);
-      ASSERT_TRUE(at.has_value()) << "triangle " << k << " is not on face " << face;
-      EXPECT_EQ(p.denominator, std::uint32_t{1} << depth[face]);
-      l[c] = *at;
-    }
-    const auto turn = (l[1][1] - l[0][1]) * (l[2][2] - l[0][2]) - (l[2][1] - l[0][1]) * (l[1][2] - l[0][2]);
-    EXPECT_EQ(turn, 1) << "triangle " << k;
-    cells[face].insert(
-        {l[0][1] + l[1][1] + l[2][1], l[0][2] + l[1][2] + l[2][2], 0});  // its centre: no two cells share it
-  }
-  std::int64_t sum = 0;
-  for (std::size_t f = 0; f < cells.size(); ++f) {
-    const auto expected = depth[f] < 0 ? 0 : std::int64_t{1} << (2 * depth[f]);
-    EXPECT_EQ(static_cast<std::int64_t>(cells[f].size()), expected) << "face " << f;
-    sum += expected;
-  }
-  EXPECT_EQ(t.triangle_count(), sum);
-}
+using Expected = test::Expected<data::Scheme::kLoop>;
 
 TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
   for (const Named& named : kAdapters) {
@@ -82,7 +52,7 @@ TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
         EXPECT_TRUE(t.defects().empty());
         EXPECT_TRUE(t.overruns().empty());
         EXPECT_EQ(t.has_normals(), session.capabilities().normals == 1);
-        expect_full_lattice(session.mesh(), t, std::vector<int>(mesh.faces.size(), depth));
+        expect_full_lattice(Expected(session.mesh(), depth), t, std::vector<int>(mesh.faces.size(), depth));
         for (std::int64_t v = 0; v < t.vertex_count(); ++v) EXPECT_FALSE(t.position_unwritten(v));
       }
     }
@@ -96,7 +66,7 @@ TEST(Adapters, TakeADepthForEachFaceWhereTheySaySo) {
     Session session(*find_subject(named.subject), mesh, named.options);
     if (session.capabilities().per_face_depth == 0) continue;
     SCOPED_TRACE(named.subject);
-    expect_full_lattice(mesh, session.tessellate(depth), depth);
+    expect_full_lattice(Expected(mesh, 3), session.tessellate(depth), depth);
   }
 }
 
@@ -126,7 +96,7 @@ TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
     Session vtk_session(*vtk, mesh);
     Session cgal_session(*lc_subject_cgal(), vtk_session.mesh());
     const Tessellation in_float = vtk_session.tessellate(3), exact = cgal_session.tessellate(3);
-    expect_full_lattice(mesh, in_float, std::vector<int>(mesh.faces.size(), 3));
+    expect_full_lattice(Expected(mesh, 3), in_float, std::vector<int>(mesh.faces.size(), 3));
     const auto expected = places(mesh, exact);
     for (const auto& [place, vertices] : places(mesh, in_float)) {
       EXPECT_EQ(vertices.size(), 1u);
@@ -145,13 +115,10 @@ TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
     for (const auto& [name, mesh] : shapes()) {
       Session session(*find_subject(subject), mesh);
       const Tessellation t = session.tessellate(1);
-      const auto expected = reference::refine<double>(mesh, 1);
+      const Expected expected(mesh, 1);
       for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-        const lc_provenance& p = t.provenance()[v];
-        const auto step = 2 / p.denominator;
-        const auto& at = expected.positions()[expected.vertex(
-            static_cast<std::size_t>(p.face), static_cast<int>(p.i * step), static_cast<int>(p.j * step))];
-        const double error = distance(t.position(v), vector_of(at));
+        const double error =
+            distance(t.position(v), expected.point(expected.vertex(t.place(v)), LC_POINTS_REFINED));
         EXPECT_LE(error, 1e-15) << subject << " on " << name;  // a dozen roundings of numbers near 1
         worst = std::max(worst, error);
       }
@@ -213,10 +180,6 @@ TEST(SubjectAdapters, RefuseMoreVerticesThanIndicesNameBeforeTheyAllocate) {
     }
   }
 }
-
-using namespace limitcheck;
-using namespace limitcheck::verify;
-using namespace limitcheck::verify::test;
 
 // Vertices where OpenSubdiv's tangents are of another rule, so that its normal is not the surface's (see
 // opensubdiv_test.cpp): on the boundary, with four faces or more.

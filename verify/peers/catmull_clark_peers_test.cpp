@@ -5,7 +5,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
 #include <gtest/gtest.h>
-#include <opensubdiv/far/primvarRefiner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,73 +15,13 @@
 #include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "reference/catmull_clark/naive.h"
-#include "reference/catmull_clark/refined_mesh.h"
-#include "reference/loop/refine.h"
 #include "reference/surface/surface.h"
-#include "verify/peers/opensubdiv_mesh.h"
+#include "verify/peers/test_far_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using reference::Vec3;
-using Refined = reference::catmull_clark::RefinedMesh<double>;
-namespace Far = OpenSubdiv::Far;
-
-double largest_of(const data::ControlMesh& mesh) {
-  double largest = 0;
-  for (const auto& p : mesh.positions)
-    largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-  return largest;
-}
-
-// Refined by Far in double, with limits, in the order of our own refinement.
-struct FarMesh {
-  std::vector<Vec3<double>> refined, limits, normals;
-
-  FarMesh(const data::ControlMesh& mesh, int depth) {
-    const LentMesh lent(mesh, data::Scheme::kCatmullClark);
-    const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(lent.view());
-    Far::TopologyRefiner::UniformOptions uniform(depth);
-    uniform.fullTopologyInLastLevel = true;
-    refiner->RefineUniform(uniform);
-    std::vector<OpenSubdivVector<double>> points;
-    for (const auto& p : mesh.positions) points.push_back({p});
-    const Far::PrimvarRefinerReal<double> primvars(*refiner);
-    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
-    std::vector<int> vertex(mesh.positions.size()), face(mesh.faces.size());  // Far's number of ours
-    for (std::size_t i = 0; i < vertex.size(); ++i) vertex[i] = static_cast<int>(i);
-    for (std::size_t i = 0; i < face.size(); ++i) face[i] = static_cast<int>(i);
-    for (int level = 1; level <= depth; ++level) {
-      std::vector<OpenSubdivVector<double>> next(
-          static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
-      primvars.Interpolate(level, points, next);
-      points.swap(next);
-      const Far::TopologyLevel& here = refiner->GetLevel(level - 1);
-      std::vector<int> next_vertex, next_face;
-      for (const int v : vertex) next_vertex.push_back(here.GetVertexChildVertex(v));
-      for (const auto& e : ours.topology().edges())
-        next_vertex.push_back(here.GetEdgeChildVertex(
-            here.FindEdge(vertex[static_cast<std::size_t>(e.a)], vertex[static_cast<std::size_t>(e.b)])));
-      for (const int f : face) {
-        next_vertex.push_back(here.GetFaceChildVertex(f));
-        const auto children = here.GetFaceChildFaces(f);
-        for (int k = 0; k < children.size(); ++k) next_face.push_back(children[k]);
-      }
-      vertex = std::move(next_vertex), face = std::move(next_face);
-      ours.refine();
-    }
-    std::vector<OpenSubdivVector<double>> limit(points.size()), t1(points.size()), t2(points.size());
-    primvars.Limit(points, limit, t1, t2);
-    for (const int v : vertex) {
-      const auto i = static_cast<std::size_t>(v);
-      const auto vec = [](const OpenSubdivVector<double>& a) { return Vec3<double>{a.x[0], a.x[1], a.x[2]}; };
-      refined.push_back(vec(points[i]));
-      limits.push_back(vec(limit[i]));
-      const Vec3<double> n = cross(vec(t1[i]), vec(t2[i]));
-      normals.push_back(n * (1 / std::sqrt(dot(n, n))));
-    }
-  }
-};
+using namespace test;
 
 std::vector<std::pair<std::string, data::ControlMesh>> meshes() {
   std::vector<std::pair<std::string, data::ControlMesh>> all{{"cube", data::quad_cube()},
@@ -95,25 +34,18 @@ std::vector<std::pair<std::string, data::ControlMesh>> meshes() {
   return all;
 }
 
-double degrees(const Vec3<double>& a, const Vec3<double>& b) {
-  const Vec3<double> c = cross(a, b);
-  return std::atan2(std::sqrt(dot(c, c)), dot(a, b)) * 180 / 3.14159265358979323846;
-}
-
 TEST(CatmullClark_OpenSubdiv, HasTheSameRefinedAndLimitPoints) {
   double worst_refined = 0, worst_limit = 0, worst_normal = 0, worst_boundary = 0;
   for (const auto& [name, mesh] : meshes()) {
     const double unit = largest_of(mesh) * 0x1p-52;
-    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
     for (int depth = 1; depth <= 3; ++depth) {
-      ours.refine();
-      const FarMesh far(mesh, depth);
-      const auto limits = ours.limits();
-      for (std::size_t v = 0; v < ours.positions().size(); ++v) {
-        worst_refined = std::max(worst_refined, magnitude(ours.positions()[v] - far.refined[v]) / unit);
+      const FarMesh<Quads> far(mesh, depth);
+      const auto limits = far.ours.limits();
+      worst_refined = std::max(worst_refined, far.worst / unit);
+      for (std::size_t v = 0; v < far.refined.size(); ++v) {
         worst_limit = std::max(worst_limit, magnitude(limits.positions[v] - far.limits[v]) / unit);
         const double turned = degrees(limits.normals[v], far.normals[v]);
-        const auto sector = ours.topology().sector(static_cast<std::int32_t>(v));
+        const auto sector = far.ours.topology().sector(static_cast<std::int32_t>(v));
         // Its tangents at boundary vertices of three faces and more belong to another edge rule.
         (sector.closed || sector.faces.size() < 3 ? worst_normal : worst_boundary) =
             std::max(sector.closed || sector.faces.size() < 3 ? worst_normal : worst_boundary, turned);
@@ -136,9 +68,7 @@ TEST(CatmullClark_OpenSubdiv, OurTwoEvaluatorsAndFarAgreeToAFewUlp) {
   double naive_stam = 0, naive_far = 0, stam_far = 0, turned_stam = 0, turned_far = 0;
   for (const auto& [name, mesh] : meshes()) {
     const double unit = largest_of(mesh) * 0x1p-52;
-    const FarMesh far(mesh, kDepth);
-    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
-    for (int step = 0; step < kDepth; ++step) ours.refine();
+    const FarMesh<Quads> far(mesh, kDepth);
     const reference::Surface stam(mesh, data::Scheme::kCatmullClark);
     const reference::catmull_clark::NaiveSubdivider<double> naive(mesh.faces,
                                                                   reference::positions_of<double>(mesh));
@@ -148,7 +78,7 @@ TEST(CatmullClark_OpenSubdiv, OurTwoEvaluatorsAndFarAgreeToAFewUlp) {
       for (std::size_t corner = 0; corner < (quad ? 1 : mesh.faces[face].size()); ++corner)
         naive.tessellate(face, corner, kDepth, [&](const reference::catmull_clark::LeafQuad<double>& leaf) {
           for (const auto& c : leaf) {
-            const auto v = ours.vertex(face, corner, c.i, c.j);
+            const auto v = far.ours.vertex(face, corner, c.i, c.j);
             const auto exact = stam.evaluate(static_cast<int>(face), static_cast<int>(corner), c.i / steps,
                                              c.j / steps, reference::Order::kFirst);
             const Vec3<double>& theirs = far.limits[static_cast<std::size_t>(v)];
@@ -157,7 +87,7 @@ TEST(CatmullClark_OpenSubdiv, OurTwoEvaluatorsAndFarAgreeToAFewUlp) {
             stam_far = std::max(stam_far, magnitude(exact.position - theirs) / unit);
             if (c.normal_kind != reference::NormalKind::kRegular) continue;
             turned_stam = std::max(turned_stam, degrees(c.normal, exact.normal));
-            const auto sector = ours.topology().sector(v);
+            const auto sector = far.ours.topology().sector(v);
             if (sector.closed || sector.faces.size() < 3)  // the others: above
               turned_far = std::max(turned_far, degrees(c.normal, far.normals[static_cast<std::size_t>(v)]));
           }
@@ -189,7 +119,7 @@ TEST(CatmullClark_Cgal, HasTheSameRefinedPoints) {
       ASSERT_NE(theirs.add_face(corners), Mesh::null_face());
     }
     CGAL::Subdivision_method_3::CatmullClark_subdivision(theirs, CGAL::parameters::number_of_iterations(2));
-    Refined ours(mesh.faces, reference::positions_of<double>(mesh));
+    Quads ours = reference_of<Quads>(mesh);
     ours.refine(), ours.refine();
     ASSERT_EQ(theirs.number_of_vertices(), ours.positions().size()) << name;
     const double unit = largest_of(mesh) * 0x1p-52;

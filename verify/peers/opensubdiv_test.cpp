@@ -8,8 +8,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "reference/loop/refine.h"
-#include "verify/evidence/vector.h"
 #include "verify/peers/test_lattice.h"
 #include "verify/subject/registry.h"
 
@@ -19,39 +17,19 @@ using namespace limitcheck;
 using namespace limitcheck::verify;
 using namespace limitcheck::verify::test;
 
-// What the reference makes of a mesh, at the lattice points of one depth.
-class Expected {
- public:
-  Expected(const data::ControlMesh& mesh, int depth)
-      : refined_(reference::refine<double>(mesh, depth)), limits_(refined_.limits()) {}
+using Expected = test::Expected<data::Scheme::kLoop>;
 
-  std::int32_t vertex(const lc_provenance& p) const {
-    const auto step = (std::uint32_t{1} << refined_.depth()) / p.denominator;
-    return refined_.vertex(static_cast<std::size_t>(p.face), static_cast<int>(p.i * step),
-                           static_cast<int>(p.j * step));
-  }
-  Vector position(std::int32_t v) const { return vector_of(limits_.positions[v]); }
-  Vector normal(std::int32_t v) const { return vector_of(limits_.normals[v]); }
-  /// The number of faces at a boundary vertex, 0 inside.
-  std::size_t boundary_faces(std::int32_t v) const {
-    return refined_.topology().on_boundary(v) ? refined_.topology().ring(v).size() - 1 : 0;
-  }
-  /// Of a boundary vertex of four faces or more, by OpenSubdiv's mask for the tangent across (D4): the ends
-  /// of the ring weigh sin(theta) / (2 cos(theta) - 2), theta = pi / faces, those between sin(k theta).
-  Vector normal_by_the_other_mask(std::int32_t v) const {
-    const auto ring = refined_.topology().ring(v);
-    const double theta = std::numbers::pi / static_cast<double>(ring.size() - 1);
-    const auto at = [&](std::size_t k) { return vector_of(refined_.positions()[ring[k]]); };
-    Vector across = std::sin(theta) / (2 * std::cos(theta) - 2) * (at(0) + at(ring.size() - 1));
-    for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-      across = across + std::sin(static_cast<double>(k) * theta) * at(k);
-    return cross(at(0) - at(ring.size() - 1), across);
-  }
-
- private:
-  reference::RefinedMesh<double> refined_;
-  reference::RefinedMesh<double>::Limits limits_;
-};
+// Of a boundary vertex of four faces or more, by OpenSubdiv's mask for the tangent across (D4): the ends of the ring
+// weigh sin(theta) / (2 cos(theta) - 2), theta = pi / faces, those between sin(k theta).
+Vector normal_by_the_other_mask(const Expected& expected, std::int32_t v) {
+  const auto ring = expected.refined().topology().ring(v);
+  const double theta = std::numbers::pi / static_cast<double>(ring.size() - 1);
+  const auto at = [&](std::size_t k) { return expected.point(ring[k], LC_POINTS_REFINED); };
+  Vector across = std::sin(theta) / (2 * std::cos(theta) - 2) * (at(0) + at(ring.size() - 1));
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
+    across = across + std::sin(static_cast<double>(k) * theta) * at(k);
+  return cross(at(0) - at(ring.size() - 1), across);
+}
 
 struct Deviation {
   double position = 0;                              // of the box
@@ -73,9 +51,9 @@ Deviation deviation(const char* subject, const char* options, const data::Contro
   const Tessellation t = session.tessellate(depth);
   Deviation worst;
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    const std::int32_t at = expected.vertex(t.provenance()[v]);
-    worst.position =
-        std::max(worst.position, distance(t.position(v), expected.position(at)) / data::box_diagonal(mesh));
+    const std::int32_t at = expected.vertex(t.place(v));
+    worst.position = std::max(worst.position, distance(t.position(v), expected.point(at, LC_POINTS_LIMIT)) /
+                                                  data::box_diagonal(mesh));
     const std::size_t faces = expected.boundary_faces(at);
     if (faces > 3 || (faces == 1 && !one_face)) continue;
     const double a = angle_degrees(t.normal(v), expected.normal(at));
@@ -152,7 +130,8 @@ TEST(OpenSubdivFar, UsesATangentMaskOfAnotherRuleAtBoundaryVerticesOfFourFacesOr
     const Tessellation t = session.tessellate(1);
     const Vector normal = t.normal(places(mesh, t).at({0, 0, 0, 0, 0})[0]);
     const double to_rule = angle_degrees(normal, expected.normal(0));
-    const double to_other = faces > 3 ? angle_degrees(normal, expected.normal_by_the_other_mask(0)) : to_rule;
+    const double to_other =
+        faces > 3 ? angle_degrees(normal, normal_by_the_other_mask(expected, 0)) : to_rule;
     EXPECT_LE(to_other, 1e-10) << faces << " faces";
     EXPECT_EQ(to_rule > 0.1, faces > 3) << faces << " faces: " << to_rule;
     record("degrees_at_" + std::to_string(faces) + "_faces", to_rule);

@@ -2,13 +2,11 @@
 // The reference's refinement with sharp edges and vertices against OpenSubdiv's, both schemes; and where
 // OpenSubdiv is known to differ.
 #include <gtest/gtest.h>
-#include <opensubdiv/far/primvarRefiner.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,27 +19,14 @@
 #include "data/io/write.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "reference/catmull_clark/refined_mesh.h"
-#include "reference/loop/refine.h"
-#include "verify/peers/opensubdiv_mesh.h"
+#include "verify/peers/test_far_mesh.h"
 #include "verify/peers/test_sharp_shapes.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using reference::Vec3;
-using Quads = reference::catmull_clark::RefinedMesh<double>;
-using Triangles = reference::RefinedMesh<double>;
+using namespace test;
 namespace Far = OpenSubdiv::Far;
-
-template <class Refined>
-Refined reference_of(const data::ControlMesh& mesh) {
-  if constexpr (std::is_same_v<Refined, Triangles>) {
-    return Triangles(mesh);
-  } else {
-    return Quads(mesh.faces, reference::positions_of<double>(mesh), mesh.sharpness);
-  }
-}
 
 // The largest differences between both.
 struct Differences {
@@ -56,77 +41,31 @@ struct Differences {
   }
 };
 
-double degrees(const Vec3<double>& a, const Vec3<double>& b) {
-  return std::atan2(magnitude(cross(a, b)), dot(a, b)) * 180 / 3.14159265358979323846;
-}
-
 // The points of so many steps. With limits, those of the last as well, where OpenSubdiv's masks are those of
 // the surface: not at darts; and normals not on edges that stay sharp, where it has one of several, nor where
 // the mask across a boundary is that of another rule, nor where there is none.
 template <class Refined>
 Differences differences(const data::ControlMesh& mesh, int depth, bool with_limits) {
-  constexpr bool kQuads = std::is_same_v<Refined, Quads>;
-  const LentMesh lent(mesh, kQuads ? data::Scheme::kCatmullClark : data::Scheme::kLoop);
-  const auto refiner = make_refiner(lent.view());
-  Far::TopologyRefiner::UniformOptions uniform(depth);
-  uniform.fullTopologyInLastLevel = true;
-  refiner->RefineUniform(uniform);
-  const Far::PrimvarRefinerReal<double> primvars(*refiner);
-  std::vector<OpenSubdivVector<double>> points;
-  double largest = 0;
-  for (const auto& p : mesh.positions) {
-    points.push_back({p});
-    largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-  }
-  const auto vec = [](const OpenSubdivVector<double>& a) { return Vec3<double>{a.x[0], a.x[1], a.x[2]}; };
+  const FarMesh<Refined> far(mesh, depth, with_limits);
+  const double largest = largest_of(mesh);
   Differences worst;
-  Refined ours = reference_of<Refined>(mesh);
-  std::vector<int> vertex(mesh.positions.size()), face(mesh.faces.size());  // Far's number of ours
-  std::iota(vertex.begin(), vertex.end(), 0);
-  std::iota(face.begin(), face.end(), 0);
-  for (int level = 1; level <= depth; ++level) {
-    std::vector<OpenSubdivVector<double>> next(
-        static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
-    primvars.Interpolate(level, points, next);
-    points.swap(next);
-    const Far::TopologyLevel& here = refiner->GetLevel(level - 1);
-    std::vector<int> next_vertex, next_face;
-    for (const int v : vertex) next_vertex.push_back(here.GetVertexChildVertex(v));
-    for (const auto& e : ours.topology().edges())
-      next_vertex.push_back(here.GetEdgeChildVertex(
-          here.FindEdge(vertex[static_cast<std::size_t>(e.a)], vertex[static_cast<std::size_t>(e.b)])));
-    if (kQuads)
-      for (const int f : face) {
-        next_vertex.push_back(here.GetFaceChildVertex(f));
-        const auto children = here.GetFaceChildFaces(f);
-        for (int k = 0; k < children.size(); ++k) next_face.push_back(children[k]);
-      }
-    vertex = std::move(next_vertex), face = std::move(next_face);
-    ours.refine();
-    for (std::size_t v = 0; v < vertex.size(); ++v)
-      worst.refined = std::max(
-          worst.refined,
-          magnitude(ours.positions()[v] - vec(points[static_cast<std::size_t>(vertex[v])])) / largest);
-  }
+  worst.refined = far.worst / largest;
   if (!with_limits) return worst;
 
-  std::vector<OpenSubdivVector<double>> limit(points.size()), t1(points.size()), t2(points.size());
-  primvars.Limit(points, limit, t1, t2);
-  const auto limits = ours.limits();
-  const Far::TopologyLevel& last = refiner->GetLevel(depth);
-  for (std::size_t v = 0; v < vertex.size(); ++v) {
+  const auto limits = far.ours.limits();
+  for (std::size_t v = 0; v < far.limits.size(); ++v) {
     using Rule = OpenSubdiv::Sdc::Crease;
-    const auto theirs = static_cast<std::size_t>(vertex[v]);
-    const auto rule = last.GetVertexRule(vertex[v]);
-    if (rule == Rule::RULE_DART) continue;
-    worst.limit = std::max(worst.limit, magnitude(limits.positions[v] - vec(limit[theirs])) / largest);
+    if (far.rule[v] == Rule::RULE_DART) continue;
+    worst.limit = std::max(worst.limit, magnitude(limits.positions[v] - far.limits[v]) / largest);
     ++worst.limits;
-    const auto sector = ours.topology().sector(static_cast<std::int32_t>(v));
-    const std::size_t right = sector.closed ? 0 : rule == Rule::RULE_CORNER ? 1 : kQuads ? 2 : 3;
-    const bool one_side = sector.closed ? rule == Rule::RULE_SMOOTH : sector.faces.size() <= right;
+    const auto sector = far.ours.topology().sector(static_cast<std::int32_t>(v));
+    const std::size_t right = sector.closed                      ? 0
+                              : far.rule[v] == Rule::RULE_CORNER ? 1
+                              : std::is_same_v<Refined, Quads>   ? 2
+                                                                 : 3;
+    const bool one_side = sector.closed ? far.rule[v] == Rule::RULE_SMOOTH : sector.faces.size() <= right;
     if (!one_side || limits.kinds[v] != reference::NormalKind::kRegular) continue;
-    worst.normal =
-        std::max(worst.normal, degrees(limits.normals[v], cross(vec(t1[theirs]), vec(t2[theirs]))));
+    worst.normal = std::max(worst.normal, degrees(limits.normals[v], far.normals[v]));
     ++worst.normals;
   }
   return worst;

@@ -84,7 +84,7 @@ def claims(shop):
 
 def audit(shop):
     meshes = ["icosahedron", "bumpy:200", "fan:5"] if shop.quick else []
-    shop.run([shop.limitcheck, "audit", "all", *meshes, "--json"], "audit.json", (0, 1))
+    shop.run([shop.limitcheck, "audit", "all", *meshes, "--all-rows", "--json"], "audit.json", (0, 1))
 
 
 def proofs(shop):

@@ -275,7 +275,8 @@ int audit(const Job& job) {
     const bool judged = settle(a.output, report);
     const bool done = signal == 0 && auditor.lack().empty();
     const std::string json =
-        reports && whole ? attested(verify::to_json(report, a.output.level), plan.what) : "";
+        reports && whole ? attested(verify::to_json(report, a.output.level, a.output.all_rows), plan.what)
+                         : "";
     const auto not_written =
         write_files(job, {audited, meshes, report, a.threads}, json, journal.get(), done);
     print(job, report, json, asked.scheme_line);

@@ -23,11 +23,11 @@
 
 namespace limitcheck::cli {
 
-/// --require, --require-coverage, --junit, --waivers, --baseline and --save-baseline: what can be done with a report alone.
+/// --require, --require-coverage, --all-rows, --junit, --waivers, --baseline and --save-baseline: what can be done with a report alone.
 struct ReportOptions {
   std::string junit, waivers, baseline, save_baseline;
   std::vector<std::string> required;
-  bool require_coverage = false;
+  bool require_coverage = false, all_rows = false;
 };
 void add_report_options(CLI::App& command, ReportOptions& options);
 

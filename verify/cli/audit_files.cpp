@@ -164,8 +164,9 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const bool judged = settle(a.output, report);
-  const std::string text =
-      json.empty() ? "" : attested(verify::to_json(report), plan_of(files, report.subjects));
+  const std::string text = json.empty() ? ""
+                                        : attested(verify::to_json(report, a.output.level, a.output.all_rows),
+                                                   plan_of(files, report.subjects));
   // Files are written first, because a reader of the table may close the pipe; and the table is printed even
   // if a file cannot be written.
   std::exception_ptr not_written;

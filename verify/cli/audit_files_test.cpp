@@ -128,6 +128,7 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--threads", {"1", 1, ""}},
       {"--json", {"new.json", 1, "new.json"}},
       {"--details", {"", 1, ""}},
+      {"--all-rows", {"", 1, ""}},
       {"--require", {"file-normals", 1, ""}},
       {"--junit", {"junit.xml", 1, "junit.xml"}},
       {"--html", {"page.html", 1, "page.html"}},

@@ -39,6 +39,10 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
   command.add_flag("--require-coverage", a.require_coverage,
                    "Each subject must have been judged at every kind of neighbourhood that it declares to "
                    "do; otherwise nothing is confirmed (exit code 2)");
+  command.add_flag("--all-rows", a.all_rows,
+                   fmt::format("Write every row to the JSON report; without it a report of more than {} rows "
+                               "has of each subject and check the {} that say most, and the others in short",
+                               verify::kMostInFull, verify::kInFull));
   add_value(command, "--junit", a.junit, "FILE", "Write the results as JUnit XML to FILE");
   command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")

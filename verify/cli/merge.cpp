@@ -47,12 +47,13 @@ std::string program_of(const std::string& text) {
 }
 
 void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
-  for (const auto& [option, given] : {std::pair{"--require", !a.options.required.empty()},
-                                      std::pair{"--require-coverage", a.options.require_coverage},
-                                      std::pair{"--waivers", !a.options.waivers.empty()},
-                                      std::pair{"--save-baseline", !a.options.save_baseline.empty()},
-                                      std::pair{"--baseline", !a.options.baseline.empty() && !of_hunt},
-                                      std::pair{"--junit", !a.options.junit.empty() && !of_hunt}})
+  for (const auto& [option, given] :
+       {std::pair{"--require", !a.options.required.empty()},
+        std::pair{"--require-coverage", a.options.require_coverage},
+        std::pair{"--all-rows", a.options.all_rows}, std::pair{"--waivers", !a.options.waivers.empty()},
+        std::pair{"--save-baseline", !a.options.save_baseline.empty()},
+        std::pair{"--baseline", !a.options.baseline.empty() && !of_hunt},
+        std::pair{"--junit", !a.options.junit.empty() && !of_hunt}})
     if (given) throw data::ArgumentError(fmt::format("{} is not for parts of {}", option, program));
 }
 
@@ -75,7 +76,7 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
 
   const bool judged = settle(a.options, report);
   if (!a.options.junit.empty()) verify::write_text(a.options.junit, verify::to_junit(report));
-  verify::write_text(a.output, attested(verify::to_json(report, level), plan));
+  verify::write_text(a.output, attested(verify::to_json(report, level, a.options.all_rows), plan));
   say_report(report, [&](const verify::Report& shown, bool in_colour) {
     return verify::to_overview(shown, verify::causes(shown), in_colour, "", level, "");
   });

@@ -160,6 +160,7 @@ std::vector<Result> reported_rows(const std::string& text, const std::string& fi
     for (const char* key : {"subject", "mesh", "check", "status", "count", "of", "worst"}) (void)row.at(key);
     rows.push_back(reported_row(row));
   }
+  for (Result& row : rows_in_short(json)) rows.push_back(std::move(row));
   return rows;
 } catch (const nlohmann::json::exception& error) {
   throw data::ArgumentError(fmt::format("{}: {}", file, error.what()));

@@ -26,7 +26,6 @@ namespace {
 
 // The fields of a row and of what it holds, each under its name and in the order of the report: described once for
 // all that is written and read.
-
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
 
@@ -138,7 +137,6 @@ template <class T>
 constexpr bool kHasFields = requires(T& row) {
   visit_fields(row, Nothing{});
 };
-
 // As a report has it: what does not apply, or is no number, is null.
 template <class T>
 Ordered shown(const T& x) {
@@ -251,7 +249,7 @@ Ordered causes_json(const Report& report, const std::string& level, std::vector<
   return list;
 }
 
-// A row, the number of its cause, and the commands that show its witness.
+// With the commands that show its witness.
 Ordered row_json(const Result& r, int cause, const std::string& level) {
   Ordered row = shown(r), witness = std::move(row["witness"]);
   row.erase("witness");
@@ -278,7 +276,7 @@ Ordered numbers(const std::vector<double>& list) {
   return out;
 }
 
-std::string to_json(const Report& report, const std::string& level) {
+std::string to_json(const Report& report, const std::string& level, bool all_rows) {
   Ordered out{{"program", "limitcheck audit"},
               {"version", report.version},
               {"depth", report.depth},
@@ -302,8 +300,8 @@ std::string to_json(const Report& report, const std::string& level) {
   out["coverage"] = Ordered::array();
   for (const Coverage& c : report.coverage) {
     constexpr std::size_t kNamed = 100;
-    const std::vector<std::string> named(
-        c.never.begin(), c.never.begin() + static_cast<std::ptrdiff_t>(std::min(kNamed, c.never.size())));
+    std::vector<std::string> named = c.never;
+    named.resize(std::min(kNamed, named.size()));
     out["coverage"].push_back({{"subject", c.subject},
                                {"scheme", data::name_of(c.scheme)},
                                {"looked_at", c.looked},
@@ -328,8 +326,11 @@ std::string to_json(const Report& report, const std::string& level) {
   std::vector<int> cause_of(report.results.size(), -1);
   out["causes"] = causes_json(report, level, cause_of);
   out["results"] = Ordered::array();
+  const std::vector<bool> full =
+      all_rows ? std::vector<bool>(report.results.size(), true) : rows_in_full(report);
   for (std::size_t k = 0; k < report.results.size(); ++k)
-    out["results"].push_back(row_json(report.results[k], cause_of[k], level));
+    if (full[k]) out["results"].push_back(row_json(report.results[k], cause_of[k], level));
+  if (std::count(full.begin(), full.end(), false) > 0) out["in_short"] = in_short(report, full);
   return out.dump(1, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 

@@ -18,8 +18,17 @@ namespace limitcheck::verify {
 /// worst_absolute, worst_ulps, message, witness (face, l1, l2 as fractions, vertex, triangle, expected, got,
 /// expected_digits, command, reproduce) - null where it does not apply. The schema:
 /// verify/report/schema/audit.schema.json.
-///   level   of the audit, for the commands that repeat it
-std::string to_json(const Report& report, const std::string& level = "standard");
+///   level     of the audit, for the commands that repeat it
+///   all_rows  false: of a report of more than kMostInFull rows `results` has the kInFull of each subject and check
+///             that say most, and `in_short` the others: of findings case, status, count, of and worst, of the rest
+///             how many there are
+std::string to_json(const Report& report, const std::string& level = "standard", bool all_rows = false);
+inline constexpr std::size_t kMostInFull = 2000, kInFull = 4;
+/// Whether each row is one of those.
+std::vector<bool> rows_in_full(const Report& report);
+nlohmann::ordered_json in_short(const Report& report, const std::vector<bool>& full);
+/// The findings that a report has in short; none if it has all rows. Throws as reported_row().
+std::vector<Result> rows_in_short(const nlohmann::json& report);
 /// A row of `results` again, as far as it has it: what is missing is as in an empty row. Throws
 /// nlohmann::json::exception: a value is of another type; data::ArgumentError: a word means nothing.
 Result reported_row(const nlohmann::json& row);

@@ -9,6 +9,7 @@ import sys
 sys.dont_write_bytecode = True  # nothing is left in the source tree
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import page  # noqa: E402
+import tables  # noqa: E402
 from parts import PARTS, Workshop, order  # noqa: E402
 from progress import say  # noqa: E402
 from record import Record  # noqa: E402
@@ -24,8 +25,8 @@ def arguments():
     parser = argparse.ArgumentParser(
         prog="limitcheck reproduce", description=__doc__,
         epilog="Each part leaves its result in the folder as soon as it is made, and the page shows what is there: a run that fails or is "
-               "interrupted loses only the part it was at. Exit codes: 0 the report is complete, 1 a part is missing (said in it), "
-               "2 bad usage.")
+               "interrupted loses only the part it was at. Exit codes: 0 the report is complete, 1 a part is missing or claims "
+               "were not run (said in it), 2 bad usage.")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("build/report"),
                         help="folder of the report (default: %(default)s)")
     parser.add_argument("--quick", action="store_true", help="fewer frames and meshes: two minutes instead of a quarter of an hour")
@@ -64,6 +65,19 @@ def make(selected, shop, record):
         page.write(shop.folder, record)
 
 
+def complete(selected, folder, record):
+    """Whether each part was made; of the claims, whether each that has a test was run."""
+    if any(record.problem(name) for name in selected):
+        return False
+    if "claims" not in selected:
+        return True
+    claims = page.load(folder, "claims.json", [])
+    reason = tables.claims_not_run(claims) if claims else "claims.json cannot be read"
+    if reason:
+        say(reason)
+    return not reason
+
+
 def main():
     args = arguments()
     if args.list:
@@ -89,7 +103,7 @@ def main():
         say(f"interrupted; what was made is in {args.output / 'index.html'}")
         return INCOMPLETE
     print(args.output / "index.html")
-    return INCOMPLETE if any(record.problem(name) for name in selected) else HELD
+    return HELD if complete(selected, args.output, record) else INCOMPLETE
 
 
 if __name__ == "__main__":

@@ -77,8 +77,3 @@ class Record:
             "seconds": round(time.monotonic() - start, 1), "quick": quick, "commit": self.commit,
             "machine": machine.cpu_model(), "cores": os.cpu_count(), "system": platform.platform()}}
         self.save()
-
-    def note(self, name, text):
-        """Something a reader has to know of a part that was made."""
-        self.state[name]["problem"] = text
-        self.save()

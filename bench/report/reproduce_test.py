@@ -119,6 +119,16 @@ class Reproduce(unittest.TestCase):
         self.assertNotIn("audit", self.sections())
         self.assertIn("throughput", self.sections())
 
+    def test_claims_that_were_not_run_leave_the_report_incomplete(self):
+        self.assertEqual(self.run_it("--only", "claims"), 0, "each claim that has a test was run")
+        claims = json.loads(json.dumps(RESULTS["claims"]))
+        claims["claims"][0].update(ran=False, held=None)
+        (self.build / "results.json").write_text(json.dumps({**RESULTS, "claims": claims}))
+        self.assertEqual(self.run_it("--only", "claims"), 1)
+        self.says("1 of 3 claims were not run")
+        self.assertIn("1 of 3 claims were not run", self.said)
+        self.assertEqual(self.run_it("--only", "proofs"), 0, "asked for another part alone")
+
     def test_what_needs_a_part_that_failed_says_which(self):
         self.run_it(BREAKS="spheres")
         self.says("(timings): needs spheres, which could not be made")

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Parts of audits and proofs, merged, are the report of the whole; and a part that was killed goes on.
-// An audit that SIGKILL ends loses nothing but the mesh it was at.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,6 +32,11 @@ class Merge : public CommandTest {
     }
     EXPECT_FALSE(text.empty()) << file;
     return text;
+  }
+  /// As one writes it who knows how to seal it.
+  void write_sealed(const std::string& file, json report) const {
+    report.erase("digest");
+    write(file, verify::sealed(report));
   }
   // `count` shards of a command that writes --json FILE, and what merge says.
   Outcome in_parts(const std::string& command, int count, const std::string& options = "") const {
@@ -119,10 +123,9 @@ TEST_F(Merge, WrongPartsAreRefused) {
   EXPECT_EQ(run(all + "--json whole.json").code, 0);
   json part = json_in("part2.json");
   part["results"].erase(0);
-  part.erase("digest");
-  write("less.json", verify::sealed(part));
+  write_sealed("less.json", part);
   part["incomplete"] = "interrupted by SIGINT";
-  write("interrupted.json", verify::sealed(part));
+  write_sealed("interrupted.json", part);
   part["incomplete"] = "";
   part["digest"] = json_in("part2.json")["digest"];
   write("altered.json", part.dump());
@@ -154,7 +157,6 @@ json& row_of(json& rows, const std::string& check) {
   return *find_row(rows, check);
 }
 
-// Written again by one who knows how to seal it.
 TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
   const std::string all = "audit naive octahedron tetrahedron cube --depth 1 --level quick ";
   EXPECT_EQ(in_parts(all, 2).code, 0);
@@ -179,8 +181,7 @@ TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
   for (const auto& [sentence, edit, code] : wrong) {
     json part = json_in("part1.json");
     edit(part["results"][0][1]);
-    part.erase("digest");
-    write("edited.json", verify::sealed(part));
+    write_sealed("edited.json", part);
     const Outcome o = run("merge edited.json part2.json -o merged.json");
     EXPECT_EQ(o.code, code) << sentence << o.out;
     EXPECT_TRUE(says(o.err, sentence));
@@ -188,8 +189,7 @@ TEST_F(Merge, APartWhoseRowsAreNotThoseOfThePlanIsRefused) {
   }
   json part = json_in("part1.json");  // units 0 and 2
   part["results"][1][1] = part["results"][0][1];
-  part.erase("digest");
-  write("edited.json", verify::sealed(part));
+  write_sealed("edited.json", part);
   EXPECT_TRUE(says(run("merge edited.json part2.json -o x.json").err,
                    "unit 2, naive on cube: the row tessellates is of naive on octahedron"));
 }
@@ -202,8 +202,8 @@ TEST_F(Merge, ReceiptsOfPartsAddUpAndMayBeMissing) {
   for (int k = 0; k < 2; ++k) {
     json part = json_in(k == 0 ? "part1.json" : "part2.json");
     parts[k] = part["receipts"].at(0);
-    part.erase("receipts"), part.erase("digest");
-    write("old" + std::to_string(k) + ".json", verify::sealed(part));
+    part.erase("receipts");
+    write_sealed("old" + std::to_string(k) + ".json", part);
   }
   // Fields of a receipt in a part, in order: subject, processes, most_at_once, peak_bytes, ...
   EXPECT_EQ(receipt("merged.json")["subject"], "naive");
@@ -213,8 +213,8 @@ TEST_F(Merge, ReceiptsOfPartsAddUpAndMayBeMissing) {
   EXPECT_EQ(run("merge old0.json old1.json -o merged.json").code, 0) << "of an earlier version";
   EXPECT_EQ(json_in("merged.json")["receipts"], json::array());
   json part = json_in("part1.json");
-  part["receipts"][0][1] = -1, part.erase("digest");
-  write("old0.json", verify::sealed(part));
+  part["receipts"][0][1] = -1;
+  write_sealed("old0.json", part);
   EXPECT_EQ(run("merge old0.json old1.json -o merged.json").code, 2);
 }
 
@@ -258,7 +258,7 @@ TEST_F(Merge, AResultOfAMutantIsNoneOfRightSubjects) {
     for (int unit = 0; unit < 4000 && shard[0] == '1'; ++unit)
       part["results"].push_back(
           {unit, {{"mutant", "another"}, {"killed_by", {"positions"}}, {"on", "cube"}}});
-    write(std::string("m") + shard[0] + ".json", verify::sealed(part));
+    write_sealed(std::string("m") + shard[0] + ".json", part);
   }
   const Outcome o = run("merge m1.json m2.json -o x.json", 2);
   EXPECT_TRUE(says(o.err, "unit 0 is a case of right subjects, and its result is of another kind"));
@@ -305,9 +305,8 @@ TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
   json report = json_in("r.json");
   EXPECT_EQ(report["attested"]["meshes"].size(), 2U);
   EXPECT_NE(report["attested"]["meshes"][0][1], report["attested"]["meshes"][1][1]);
-  report.erase("digest");
   const auto sealed_again = [&](const json& edited) {
-    write("edited.json", verify::sealed(edited));
+    write_sealed("edited.json", edited);
     return run("merge --verify edited.json").out;
   };
   json edited = report;
@@ -318,6 +317,7 @@ TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
     if (row["check"] == "positions") row["worst"] = .5;
   EXPECT_TRUE(
       says(sealed_again(edited), "positions of naive on octahedron says held, and its numbers say finding"));
+  report.erase("digest");
   write("edited.json", report.dump());
   const Outcome none = run("merge --verify edited.json", 2);
   EXPECT_TRUE(says(none.err, "it carries no digest"));
@@ -360,8 +360,7 @@ TEST_F(Merge, ProofsAreTheWhole) {
   const auto merged_with = [&](const std::function<void(json&)>& edit) {
     json edited = parts[holder];
     edit(last(edited)[1]);
-    edited.erase("digest");  // written again by one who knows how: the figures are judged all the same
-    write("edited.json", verify::sealed(edited));
+    write_sealed("edited.json", edited);  // the figures are judged all the same
     return run("merge edited.json " + sound + " -o edited-whole.json");
   };
   EXPECT_EQ(merged_with([](json&) {}).code, 0);
@@ -376,61 +375,6 @@ TEST_F(Merge, ProofsAreTheWhole) {
     EXPECT_FALSE(json_in("edited-whole.json")["complete"].get<bool>());
   }
   EXPECT_EQ(merged_with([](json& lines) { lines.erase(3); }).code, 1);
-}
-
-class Resume : public CommandTest {
- protected:
-  // Says what it can do and fails, counting how often; from the second time on it does not answer until there
-  // is `go`.
-  void SetUp() override {
-    CommandTest::SetUp();
-    write("m.off", kVertices + "4 0 1 2 3\n4 4 5 6 7\n");
-    write("fails.sh", kTellsWhatItCan +
-                          "n=$(cat n 2> /dev/null || echo 0); n=$((n + 1)); echo $n > n\n"
-                          "if [ $n -ge 2 ] && [ ! -e go ]; then sleep 1000; fi\n"
-                          "echo \"{\\\"status\\\": \\\"failed\\\", \\\"message\\\": \\\"time $n\\\"}\"\n");
-    (void)signalled(kArguments, kSecond, "KILL");
-    write("go", "");
-  }
-  static inline const std::string kVertices =
-      "OFF\n8 2 0\n0 0 0\n2 0 0\n3 1 0\n2 2 0\n0 2 0\n-1 1 1\n5 0 0\n5 1 0\n";
-  static constexpr const char* kArguments =
-      "audit --program 'bash fails.sh' tetrahedron octahedron m.off --depth 1 --level quick --json r.json ";
-};
-
-TEST_F(Resume, AnAuditThatWasKilledGoesOnWhereItWas) {
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.json"));
-  const std::string journal = read("r.jsonl");
-  EXPECT_EQ(std::count(journal.begin(), journal.end(), '\n'), 2) << journal;
-  std::ofstream(folder_ / "r.jsonl", std::ios::app) << R"({"subject": "prog)";  // killed while it wrote
-
-  const Outcome o = run(std::string(kArguments) + "--resume", 1);
-  const json report = json_in("r.json");
-  EXPECT_TRUE(report["incomplete"].is_null());
-  const auto said = [&](const char* mesh) {
-    for (const json& r : report["results"])
-      if (r["mesh"] == mesh && r["check"] == "tessellates") return r["message"].get<std::string>();
-    return std::string("no row");
-  };
-  EXPECT_TRUE(says(said("tetrahedron"), "time 1")) << "not asked again: ";
-  EXPECT_TRUE(says(said("octahedron"), "time 3"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "r.jsonl")) << "the report has it all";
-}
-
-TEST_F(Resume, AnotherAuditIsNotResumed) {
-  for (const auto& [was, is] :
-       {std::pair{"--depth 1", "--depth 2"}, std::pair{"--level quick", "--level standard"},
-        std::pair{"octahedron", "icosahedron"}}) {
-    std::string other = kArguments;
-    other.replace(other.find(was), std::string(was).size(), is);
-    const Outcome o = run(other + "--resume", 2);
-    EXPECT_TRUE(says(o.err, "--resume: r.jsonl is of another plan"));
-  }
-  write("m.off", kVertices + "3 0 1 2\n5 3 4 5 6 7\n");  // the same corners in faces of other sizes
-  const Outcome o = run(std::string(kArguments) + "--resume", 2);
-  EXPECT_TRUE(says(o.err, "--resume: r.jsonl is of another plan"));
-  EXPECT_TRUE(says(run("audit naive tetrahedron --resume").err, "--resume needs --json"));
-  EXPECT_TRUE(says(run("audit naive tetrahedron --json none.json --resume").err, "there is no none.jsonl"));
 }
 
 }  // namespace

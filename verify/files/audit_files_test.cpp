@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -134,41 +135,33 @@ TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
   const auto mesh = data::named_mesh("bumpy:20");
   const FileTessellation good = exact(mesh, 2);
   const ClosestPoint surface(mesh);
-  using Fault = void (*)(FileTessellation&, const ClosestPoint&);
+  using Fault = std::function<void(FileTessellation&)>;
   const std::map<std::string, Fault> faults{
-      {"file-finite", [](FileTessellation& t, const ClosestPoint&) { t.normals[7].direction[2] = NAN; }},
+      {"file-finite", [](FileTessellation& t) { t.normals[7].direction[2] = NAN; }},
       {"file-distance",
-       [](FileTessellation& t, const ClosestPoint& s) {
-         t.positions[70] = t.positions[70] + 1e-5 * s.diagonal() * s.closest(t.positions[70]).normal;
+       [&](FileTessellation& t) {
+         t.positions[70] =
+             t.positions[70] + 1e-5 * surface.diagonal() * surface.closest(t.positions[70]).normal;
        }},
       {"file-unused",
-       [](FileTessellation& t, const ClosestPoint&) {
-         t.positions.push_back(t.positions[3]);
-         t.used.push_back(false);
-       }},
-      {"file-normals",
-       [](FileTessellation& t, const ClosestPoint&) {
-         for (double& x : t.normals[30].direction) x = -x;
-       }},
+       [](FileTessellation& t) { t.positions.push_back(t.positions[3]), t.used.push_back(false); }},
+      {"file-normals", [](FileTessellation& t) { t.normals[30].direction = -1 * t.normals[30].direction; }},
       {"file-normal-length",
-       [](FileTessellation& t, const ClosestPoint&) {
+       [](FileTessellation& t) {
          for (auto& n : t.normals) n.direction = .5 * n.direction;
        }},
       {"file-degenerate",
-       [](FileTessellation& t, const ClosestPoint&) {  // in an edge, between a vertex and its copy
+       [](FileTessellation& t) {  // in an edge, between a vertex and its copy
          const auto edge = t.triangles[20];
          t.positions.push_back(t.positions[edge[0]]);
          t.used.push_back(true);
          add_triangle(t, {edge[0], static_cast<std::int32_t>(t.positions.size()) - 1, edge[1]});
        }},
-      {"file-orientation",
-       [](FileTessellation& t, const ClosestPoint&) { std::swap(t.triangles[9][0], t.triangles[9][1]); }},
-      {"file-coverage",
-       [](FileTessellation& t, const ClosestPoint&) { t.triangles.push_back(t.triangles[11]); }},
-      {"file-watertight",
-       [](FileTessellation& t, const ClosestPoint&) { t.triangles.erase(t.triangles.begin() + 12); }},
+      {"file-orientation", turn_a_triangle},
+      {"file-coverage", repeat_a_triangle},
+      {"file-watertight", leave_out_a_triangle},
       {"file-hausdorff",
-       [](FileTessellation& t, const ClosestPoint&) {  // a corner at the other end of the mesh
+       [](FileTessellation& t) {  // a corner at the other end of the mesh
          std::int32_t& corner = t.triangles[13][0];
          const Vector here = t.positions[corner];
          for (std::size_t v = 0; v < t.positions.size(); ++v)
@@ -179,7 +172,7 @@ TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
   std::set<std::string> killers;
   for (const auto& [check, fault] : faults) {
     FileTessellation t = good;
-    fault(t, surface);
+    fault(t);
     const FilesAudit a = audit(mesh, t);
     const bool seen = is_bad(row(a, check)) || row(a, check).status == Status::kQualityWarning;
     EXPECT_TRUE(seen) << check << " did not; red: " << findings(a);

@@ -50,8 +50,8 @@ RESULTS = {
     "proofs": {"rows": [{"group": "g", "kernel": "k", "map": "equal", "topology": "3 3 3", "depths": [0, 2], "points": 5,
                          "arithmetic": "exact", "bound": 1e-6, "worst": 1e-7, "digits": None}]},
     "throughput": {"benchmarks": [{"name": "a/real_time", "points/s": 1e6, "real_time": 2.0, "time_unit": "ms", "peak": 2**20}]},
-    "frames": {"benchmarks": [{"name": f"{form}/uniform:3/faces:800/threads:1/real_time", "frames/s": 100.0 * k, "triangles/s": 5e6 * k}
-                              for k, form in ((1, "draw"), (3, "sticky"))]},
+    "frames": {"benchmarks": [{"name": f"{form}/uniform:3/faces:800/threads:1/real_time", "frames/s": 100.0 * k,
+                               "triangles/s": 100.0 * k * triangles} for k, form, triangles in ((1, "draw", 50000), (3, "sticky", 40000))]},
 }
 
 
@@ -181,7 +181,7 @@ class Page(unittest.TestCase):
         self.made()
         row = re.search(r"<tr><td>uniform:3, faces:800(.*)", self.text)
         self.assertTrue(row, "a row of the case")
-        self.assertEqual([cell for cell in re.split(r"<td>", row.group(1)) if cell], ["50000", "100", "300"])
+        self.assertEqual(row.group(1).split("<td>")[1:], ["50000", "100", "", "", "", "", "40000", "300"], "each form has its own triangles")
 
     def test_throughput_has_ratios(self):
         runs = [{"name": f"{route}/steady/bumpy/faces:4000/depth:3/threads:1/real_time", "points/s": rate, "real_time": 1.0, "time_unit": "ms"}
@@ -189,6 +189,11 @@ class Page(unittest.TestCase):
         (self.folder / "throughput.json").write_text(json.dumps({"benchmarks": runs}))
         self.made(())
         self.assertIn("<td>far/uniform<td>2<td>3<td>", self.text)
+
+    def test_what_is_timed_on_the_wall_says_so(self):
+        self.made()
+        for section in ("frames", "throughput"):
+            self.assertIn("Time on the wall, each case once", self.text.partition(f"<section id={section}>")[2].partition("</section>")[0])
 
     def test_a_claim_that_did_not_run_is_not_called_held(self):
         self.made(("claims",))

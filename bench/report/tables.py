@@ -169,6 +169,7 @@ def matched(data):
             + details("At the error of uniform depths 2 and 4", table(header, only("uniform-2") + only("uniform-4"))))
 
 
+WALL = "Time on the wall, each case once, without a spread: of use on a quiet machine only."
 FORMS = {"draw": "draw list", "patches": "patches", "kept": "patches that stay", "sticky": "pairs stay, too"}
 
 
@@ -180,12 +181,12 @@ def frames(data):
         cases.setdefault(case, {})[form] = run
 
     def line(case, runs):
-        first = next(iter(runs.values()))
-        return [text(case.replace("/", ", ")), f"{first['triangles/s'] / first['frames/s']:.0f}",
-                *(rate(runs[form]["frames/s"]) if form in runs else "" for form in FORMS)]
-    return details("As a table", table(["case", "triangles"] + [f"frames per second, {name}" for name in FORMS.values()],
-                                       [line(case, runs) for case, runs in cases.items()],
-                                       "More cases and forms: <code>build/release/bench/frame_bench</code>"))
+        triangles = lambda run: f"{run['triangles/s'] / run['frames/s']:.0f}"  # noqa: E731
+        return [text(case.replace("/", ", ")),
+                *(show(runs[form]) if form in runs else "" for form in FORMS for show in (triangles, lambda run: rate(run["frames/s"])))]
+    columns = [f"{what}, {name}" for name in FORMS.values() for what in ("triangles", "frames per second")]
+    return details("As a table", table(["case", *columns], [line(case, runs) for case, runs in cases.items()],
+                                       f"{WALL} More cases and forms: <code>build/release/bench/frame_bench</code>"))
 
 
 OURS = ("row-stream", "sliding-window", "naive", "reference", "write-only")
@@ -207,7 +208,7 @@ def throughput(data, scheme="Loop"):
     option = "" if scheme == "Loop" else " --scheme catmull-clark"
     return f"<h3>{scheme}</h3>" + charts + details(f"All cases of {scheme} as a table", table(
         ["case", "route", "million points/s", "row streaming is so many times as fast", "time", "peak memory"], rows,
-        f"All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench{option}</code>"))
+        f"{WALL} All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench{option}</code>"))
 
 
 def bars(case, rates):

@@ -33,7 +33,8 @@ def summary(claims):
     missing = "; ".join(f"{text(numbers)}: {text(why)}" for numbers, why in NOT_REPRODUCED)
     return ("<p>Müller and Havemann described in 2000 how Loop subdivision surfaces can be tessellated in every frame, with as much depth as "
             "the view needs. Here the claims of their paper are registered one by one, and those that have a test are "
-            "checked by running it: formulas in exact arithmetic, pictures pixel by pixel against deep uniform subdivision. Times are processor time where nothing else is said.</p>"
+            "checked by running it: formulas in exact arithmetic, pictures pixel by pixel against deep uniform "
+            "subdivision. Times are processor time where nothing else is said.</p>"
             + (f"<p><b>{headline(claims)}</b></p>" if claims else "")
             + (f"<p>What a reader of the paper would not expect:</p><ol>{findings}</ol>" if findings else "")
             + f"<details><summary>What the words mean</summary><dl>{words}</dl></details>"

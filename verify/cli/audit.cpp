@@ -100,10 +100,7 @@ verify::Report begin_report(const Job& job, const std::vector<verify::AuditSubje
 }
 
 Job job_of(AuditArguments a) {
-  refuse_one_file_for_two({{"--json", a.shard.json},
-                           {"--junit", a.output.junit},
-                           {"--html", a.output.html},
-                           {"--save-baseline", a.output.save_baseline}});
+  refuse_one_file_for_two({{"--json", a.shard.json}, {"--html", a.output.html}}, a.output);
   Job job;
   job.depths = verify::parse_depths(a.depths);
   job.sampling = parse_sample(a.sample);
@@ -173,7 +170,7 @@ std::exception_ptr write_files(const Job& job, const Audited& audited, const std
   const verify::Report& report = audited.report;
   const bool shard = !a.shard.of().is_whole();
   try {
-    if (!a.output.junit.empty()) verify::write_text(a.output.junit, verify::to_junit(report));
+    write_forms(a.output, report, a.output.level);
     if (shard)
       write_part(a.shard, *journal,
                  {{},

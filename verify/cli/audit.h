@@ -23,9 +23,9 @@
 
 namespace limitcheck::cli {
 
-/// --require, --require-coverage, --all-rows, --junit, --waivers, --baseline and --save-baseline: what can be done with a report alone.
+/// --require, --require-coverage, --all-rows, --junit, --sarif, --markdown, --waivers, --baseline and --save-baseline: what can be done with a report alone.
 struct ReportOptions {
-  std::string junit, waivers, baseline, save_baseline;
+  std::string junit, sarif, markdown, waivers, baseline, save_baseline;
   std::vector<std::string> required;
   bool require_coverage = false, all_rows = false;
 };
@@ -43,9 +43,12 @@ std::string nothing_looked_at(bool polygons);
 /// Prints a report: in colour if standard output is a terminal and NO_COLOR is not set.
 void say_report(const verify::Report& report,
                 const std::function<std::string(const verify::Report&, bool in_colour)>& text);
-/// Outputs as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them are one and
+/// Outputs, besides those of `options`, as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them are one and
 /// the same file.
-void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs);
+void refuse_one_file_for_two(std::vector<std::pair<std::string, std::string>> outputs,
+                             const ReportOptions& options = {});
+/// Writes what --junit, --sarif and --markdown ask for.
+void write_forms(const ReportOptions& options, const verify::Report& report, const std::string& level);
 
 /// How much is checked, and more outputs.
 struct OutputArguments : ReportOptions {

@@ -116,11 +116,8 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
       tbb::global_control::max_allowed_parallelism,
       static_cast<std::size_t>(a.threads > 0 ? a.threads : tbb::info::default_concurrency()));
   const std::string& json = a.shard.json;
-  refuse_one_file_for_two({{"--json", json},
-                           {"--per-vertex", files.per_vertex},
-                           {"--junit", a.output.junit},
-                           {"--html", a.output.html},
-                           {"--save-baseline", a.output.save_baseline}});
+  refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}, {"--html", a.output.html}},
+                          a.output);
   const auto start = std::chrono::steady_clock::now();
   const OpenedMesh opened = open_control_mesh(files.control, a.mesh);
   const data::ControlMesh& control = opened.mesh;
@@ -173,7 +170,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   try {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, per_vertex);
     if (!json.empty() && json != "-") verify::write_text(json, text);
-    if (!a.output.junit.empty()) verify::write_text(a.output.junit, verify::to_junit(report));
+    write_forms(a.output, report, a.output.level);
     std::vector<verify::AuditMesh> meshes{{files.control, control}};
     meshes[0].depth = 0;  // as rows of files say
     meshes[0].asked_scheme = opened.chosen.scheme;

@@ -129,6 +129,8 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--json", {"new.json", 1, "new.json"}},
       {"--details", {"", 1, ""}},
       {"--all-rows", {"", 1, ""}},
+      {"--sarif", {"log.sarif", 1, "log.sarif"}},
+      {"--markdown", {"page.md", 1, "page.md"}},
       {"--require", {"file-normals", 1, ""}},
       {"--junit", {"junit.xml", 1, "junit.xml"}},
       {"--html", {"page.html", 1, "page.html"}},

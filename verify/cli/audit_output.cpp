@@ -44,6 +44,8 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
                                "has of each subject and check the {} that say most, and the others in short",
                                verify::kMostInFull, verify::kInFull));
   add_value(command, "--junit", a.junit, "FILE", "Write the results as JUnit XML to FILE");
+  add_value(command, "--sarif", a.sarif, "FILE", "Write the root causes to FILE as a log of SARIF 2.1.0");
+  add_value(command, "--markdown", a.markdown, "FILE", "Write overview and root causes to FILE as Markdown");
   command
       .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile)
@@ -238,7 +240,19 @@ bool settle(const ReportOptions& a, verify::Report& report) {
   return judged;
 }
 
-void refuse_one_file_for_two(const std::vector<std::pair<std::string, std::string>>& outputs) {
+void write_forms(const ReportOptions& a, const verify::Report& report, const std::string& level) {
+  if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report));
+  if (!a.sarif.empty()) verify::write_text(a.sarif, verify::to_sarif(report, verify::causes(report), level));
+  if (!a.markdown.empty())
+    verify::write_text(a.markdown, verify::to_markdown(report, verify::causes(report), level));
+}
+
+void refuse_one_file_for_two(std::vector<std::pair<std::string, std::string>> outputs,
+                             const ReportOptions& a) {
+  outputs.insert(outputs.end(), {{"--junit", a.junit},
+                                 {"--sarif", a.sarif},
+                                 {"--markdown", a.markdown},
+                                 {"--save-baseline", a.save_baseline}});
   std::error_code ignored;
   for (std::size_t k = 0; k < outputs.size(); ++k)
     for (std::size_t j = 0; j < k; ++j) {

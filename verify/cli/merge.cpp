@@ -50,7 +50,9 @@ void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
   for (const auto& [option, given] :
        {std::pair{"--require", !a.options.required.empty()},
         std::pair{"--require-coverage", a.options.require_coverage},
-        std::pair{"--all-rows", a.options.all_rows}, std::pair{"--waivers", !a.options.waivers.empty()},
+        std::pair{"--all-rows", a.options.all_rows}, std::pair{"--sarif", !a.options.sarif.empty()},
+        std::pair{"--markdown", !a.options.markdown.empty()},
+        std::pair{"--waivers", !a.options.waivers.empty()},
         std::pair{"--save-baseline", !a.options.save_baseline.empty()},
         std::pair{"--baseline", !a.options.baseline.empty() && !of_hunt},
         std::pair{"--junit", !a.options.junit.empty() && !of_hunt}})
@@ -75,7 +77,7 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
   if (!report.looked()) report.incomplete = nothing_looked_at(plan.at("polygons").get<bool>());
 
   const bool judged = settle(a.options, report);
-  if (!a.options.junit.empty()) verify::write_text(a.options.junit, verify::to_junit(report));
+  write_forms(a.options, report, level);
   verify::write_text(a.output, attested(verify::to_json(report, level, a.options.all_rows), plan));
   say_report(report, [&](const verify::Report& shown, bool in_colour) {
     return verify::to_overview(shown, verify::causes(shown), in_colour, "", level, "");
@@ -175,10 +177,7 @@ int merge(const MergeArguments& a) {
   }
   if (a.parts.empty()) throw CLI::RequiredError("PART");
   if (a.output.empty()) throw CLI::RequiredError("--output");
-  refuse_one_file_for_two({{"-o", a.output},
-                           {"--junit", a.options.junit},
-                           {"--baseline", a.options.baseline},
-                           {"--save-baseline", a.options.save_baseline}});
+  refuse_one_file_for_two({{"-o", a.output}, {"--baseline", a.options.baseline}}, a.options);
   const std::string program = read_file(a.parts.at(0), program_of);
   if (program == "limitcheck hunt") {
     refuse(a, program, true);

@@ -105,8 +105,10 @@ void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s
                           s.largest, s.shortest_edge));
   line("float",
        s.edges_lost_in_float == 0
-           ? fmt::format("numbers lie {:.2g} apart here, which leaves every edge its direction", s.float_step)
-           : fmt::format("numbers lie {:.2g} apart here: {} edges are shorter than 16 such steps, and "
+           ? fmt::format("single precision rounds these coordinates to steps of {:.2g}, far below every edge",
+                         s.float_step)
+           : fmt::format("single precision rounds these coordinates to steps of {:.2g}: {} edges are shorter "
+                         "than 16, and "
                          "normals beside them cannot be right in single precision",
                          s.float_step, s.edges_lost_in_float));
 }

@@ -14,7 +14,7 @@ _limitcheck() {
   else
     help=$("$program" "$command" --help 2>/dev/null) || return
     case $previous in
-      --json | --junit | --html | --baseline | --waivers | --control | --tessellation | --provenance | --per-vertex | -o | --output) ;;
+      --json | --junit | --sarif | --markdown | --rerun | --save-baseline | --html | --baseline | --waivers | --control | --tessellation | --provenance | --per-vertex | -o | --output) ;;
       --explain) words="all $("$program" audit --explain all 2>/dev/null | sed -n 's/^\([a-z][a-z-]*\)$/\1/p')" ;;
       --*) words=$(sed -n "s/^  [^ ]*$previous[ ,][^{]*:{\([^}]*\)}.*/\1/p" <<<"$help" | tr , ' ') ;;
       *)

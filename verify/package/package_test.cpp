@@ -77,6 +77,24 @@ TEST_F(Package, ReferenceGivesTheKnownAnswer) {
   EXPECT_TRUE(says(o.out, "leaves at depth 3: 64\n"));
 }
 
+TEST_F(Package, AnAuditIsATestOfTheProject) {
+  install();
+  fs::copy(kConsumers / "audit", folder_ / "project");
+  for (const char* file : {"subject.c", "loop.c", "loop.h"})
+    fs::copy(fs::path(LIMITCHECK_SOURCE_DIR) / "verify/subject/examples/c" / file,
+             folder_ / "project" / file);
+  build(folder_ / "project", "build");
+  const Outcome right = shell("cd build && ctest --verbose", 0);
+  EXPECT_TRUE(says(right.out, "audit_loop"));
+  EXPECT_TRUE(says(right.out, " 0 findings"));
+  // With another weight than 5/8 it fails.
+  const std::string loop = read("project/loop.c");
+  ASSERT_NE(loop.find("5.0 / 8 -"), std::string::npos);
+  write("project/loop.c", std::string(loop).replace(loop.find("5.0 / 8 -"), 3, "4.9"));
+  shell("'" LIMITCHECK_CMAKE "' --build build", 0);
+  EXPECT_TRUE(says(shell("cd build && ctest --verbose", 8).out, "root cause"));
+}
+
 TEST_F(Package, EveryHeaderCompilesByItself) {
   install();
   int headers = 0;

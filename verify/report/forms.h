@@ -90,6 +90,11 @@ std::vector<Unjudged> unjudged(const Report& report);
 /// breakdowns errors; what is not supported, not run or waived is skipped; warnings pass and say so.
 std::string to_junit(const Report& report);
 
+/// The root causes for what shows them beside the code, texts of others as visible text: a log of SARIF 2.1.0, a result
+/// for each cause with its subjects as artifacts; and a page of Markdown.
+std::string to_sarif(const Report& report, const std::vector<Cause>& causes, const std::string& level);
+std::string to_markdown(const Report& report, const std::vector<Cause>& causes, const std::string& level);
+
 /// Visible text (verify/row/visible_text.h) for XML 1.0; new lines and tabs are spaces.
 std::string xml_text(const std::string& text);
 

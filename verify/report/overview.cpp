@@ -49,9 +49,10 @@ std::string who(const Cause& cause) {
 
 std::string one_line(const Cause& cause, std::size_t number, bool colour) {
   const char* code = cause.severity() == "high" ? "31" : cause.severity() == "medium" ? "33" : "2";
-  return fmt::format("{:>2} {} {}: {} [{}/{}]\n", number,
+  const std::string cases = cause.of > 1 ? fmt::format(" (in {} of {} cases)", cause.cases, cause.of) : "";
+  return fmt::format("{:>2} {} {}: {}{}\n", number,
                      coloured(fmt::format("{:<6}", cause.severity()), code, colour), who(cause), cause.title,
-                     cause.cases, cause.of);
+                     cases);
 }
 
 }  // namespace
@@ -205,9 +206,8 @@ std::string to_overview(const Report& report, const std::vector<Cause>& causes, 
   const bool all = lines(top) + lines(bottom) + lines(long_form) + 2 <= kScreen;
   std::string middle;
   if (!causes.empty())
-    middle = fmt::format("\n{} root cause{} of all findings, the gravest first{}. [1/9]: in 1 of 9 cases\n",
-                         causes.size(), causes.size() == 1 ? "" : "s",
-                         all ? ", each with the command that shows it" : "") +
+    middle = fmt::format("\n{} root cause{} of all findings, the gravest first{}\n", causes.size(),
+                         causes.size() == 1 ? "" : "s", all ? ", each with the command that shows it" : "") +
              (all ? long_form : brief);
   return top + middle + bottom;
 }

@@ -2,10 +2,12 @@
 // Table and JSON.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <tuple>
 
 #include "data/test_support/assertions.h"
@@ -212,6 +214,41 @@ TEST(AReport, DoesNotHoldWhereTheHostLackedSomething) {
   EXPECT_FALSE(report.held());
   report.changes = Report::Changes{};
   EXPECT_FALSE(report.held()) << "nor against a baseline";
+}
+
+// The contrast of two colours "#rrggbb", by WCAG 2.1.
+double contrast(const std::string& a, const std::string& b) {
+  const auto luminance = [](const std::string& colour) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double c = std::stoi(colour.substr(1 + 2 * static_cast<std::size_t>(k), 2), nullptr, 16) / 255.0;
+      sum += (k == 0   ? .2126
+              : k == 1 ? .7152
+                       : .0722) *
+             (c <= .03928 ? c / 12.92 : std::pow((c + .055) / 1.055, 2.4));
+    }
+    return sum;
+  };
+  const double x = luminance(a), y = luminance(b);
+  return (std::max(x, y) + .05) / (std::min(x, y) + .05);
+}
+
+TEST(Page, EachColourOfTextStandsOutFromThePaperInLightAndInDark) {
+  EXPECT_NEAR(contrast("#000000", "#ffffff"), 21, 1e-9);
+  EXPECT_NEAR(contrast("#888888", "#ffffff"), 3.54, .01);
+  const std::string page = kHtmlPage;
+  std::size_t at = 0;
+  for (int scheme = 0; scheme < 2; ++scheme) {  // :root of light, then of dark
+    const auto colour = [&](const std::string& name) {
+      const std::size_t found = page.find("--" + name + ": #", at);
+      EXPECT_NE(found, std::string::npos) << name;
+      return page.substr(found + name.size() + 4, 7);
+    };
+    const std::string paper = colour("paper");
+    for (const char* text : {"ink", "red", "amber", "dim"})
+      EXPECT_GE(contrast(colour(text), paper), 4.5) << text << " of " << paper;
+    at = page.find("prefers-color-scheme: dark");
+  }
 }
 
 }  // namespace

@@ -287,7 +287,8 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
     r.message += ", which this file is: only --max-deviation can judge it";
   if (h.loose > 0)
     r.message += fmt::format(
-        "; {} triangles reach over several control faces or cover none, which makes the upper ends large",
+        "; {} triangles reach over several control faces or cover none, for which the upper bounds of the "
+        "distances are too large",
         h.loose);
   if (*r.worst > *r.bound) {
     r.status = Status::kFinding;

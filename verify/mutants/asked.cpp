@@ -18,12 +18,11 @@ void nowhere(const char* what) {
   throw SubjectError(LC_NOT_SUPPORTED, fmt::format("there is no {} to plant this fault in", what));
 }
 
-Delivered::Delivered(const Tessellation& good)
-    : provenance(good.provenance().begin(), good.provenance().end()),
-      corner(good.corners().begin(), good.corners().end()),
-      triangles(good.triangles().begin(), good.triangles().end()),
-      triangle_face(good.triangle_face().begin(), good.triangle_face().end()),
-      single(good.precision() == LC_FLOAT32) {
+Delivered::Delivered(const Tessellation& good) : single(good.precision() == LC_FLOAT32) {
+  provenance.assign(good.provenance().begin(), good.provenance().end());
+  corner.assign(good.corners().begin(), good.corners().end());
+  triangles.assign(good.triangles().begin(), good.triangles().end());
+  triangle_face.assign(good.triangle_face().begin(), good.triangle_face().end());
   for (std::int64_t v = 0; v < good.vertex_count(); ++v) {
     positions.push_back(good.position(v));
     if (good.has_normals()) normals.push_back(good.normal(v));
@@ -36,11 +35,6 @@ std::uint32_t Delivered::add_vertex(const Delivered& from, std::size_t v) {
   provenance.push_back(lc_provenance(from.provenance[v]));
   if (!from.corner.empty()) corner.push_back(std::int32_t{from.corner[v]});
   return static_cast<std::uint32_t>(positions.size() - 1);
-}
-
-void Delivered::add_triangle(const std::array<std::uint32_t, 3>& triangle, std::int32_t face) {
-  triangles.push_back(std::array(triangle));
-  triangle_face.push_back(face);
 }
 
 void Delivered::erase_triangle(std::size_t t) {

@@ -64,21 +64,6 @@ void run_apart(const std::function<void()>& work) {
   if (error) std::rethrow_exception(error);
 }
 
-template <class Real>
-void fill(const Output<Real>& output, const Delivered& from) {
-  const auto put = [](const std::vector<Delivered::Vector>& list, Real* to) {
-    for (const auto& p : list)
-      for (const double x : p) *to++ = static_cast<Real>(x);
-  };
-  put(from.positions, output.positions);
-  if (output.normals != nullptr) put(from.normals, output.normals);
-  std::copy(from.provenance.begin(), from.provenance.end(), output.provenance);
-  if (output.corner != nullptr) std::copy(from.corner.begin(), from.corner.end(), output.corner);
-  std::uint32_t* to = output.triangles;
-  for (const auto& t : from.triangles) to = std::copy(t.begin(), t.end(), to);
-  std::copy(from.triangle_face.begin(), from.triangle_face.end(), output.triangle_face);
-}
-
 // The arrays from last to first, as parts of one block that begins and ends with something else.
 template <class Real>
 Output<Real> in_one_block(const lc_request& request, lc_tessellation& out, const Delivered& from) {
@@ -255,7 +240,7 @@ class ChangedSubject {
                                     static_cast<std::int64_t>(copy.triangles.size()),
                                     !copy.normals.empty() || (vertices == 0 && declared_.normals != 0),
                                     !copy.corner.empty());
-    fill(output, copy);
+    copy.write(output);
     if (copy.overrun) output.positions[3 * vertices] = Real(1);
     if (copy.underrun) output.positions[-1] = Real(1);
     if (copy.modify_mesh) const_cast<double*>(lent_.positions)[0] += 1;

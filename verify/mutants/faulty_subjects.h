@@ -22,6 +22,7 @@
 #include "data/scheme.h"
 #include "reference/mesh/topology.h"
 #include "verify/host/host.h"
+#include "verify/subject/adapter.h"
 #include "verify/subject/face_domain.h"
 #include "verify/subject/subject.h"
 
@@ -30,13 +31,7 @@ namespace limitcheck::verify {
 // What a fault may look at, the control mesh and the request, and what it may change: what was delivered.
 
 /// What a subject delivered, exact in double, so that vertices and triangles can be changed, added and removed.
-struct Delivered {
-  using Vector = std::array<double, 3>;
-  std::vector<Vector> positions, normals;  // no normals: empty
-  std::vector<lc_provenance> provenance;
-  std::vector<std::int32_t> corner;  // empty: not delivered
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::int32_t> triangle_face;
+struct Delivered : DeliveredArrays {
   bool single = false;  // it is delivered in float
   // What is done when it is handed over.
   std::optional<std::int64_t> announced_vertices = std::nullopt;
@@ -48,7 +43,6 @@ struct Delivered {
   Place place(std::size_t v) const { return place_of(provenance[v], corner.empty() ? 0 : corner[v]); }
   /// Another vertex like vertex v of `from`; returns its number.
   std::uint32_t add_vertex(const Delivered& from, std::size_t v);
-  void add_triangle(const std::array<std::uint32_t, 3>& triangle, std::int32_t face);
   void erase_triangle(std::size_t t);
   /// The next number up, in the precision that is delivered.
   double one_ulp_up(double x) const;

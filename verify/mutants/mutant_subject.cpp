@@ -56,14 +56,7 @@ struct Settings {
 // One frame: the faces of depth 0 and more, as vertices and triangles.
 class Frame {
  public:
-  struct Vertex {
-    V position, normal;
-    lc_provenance place;
-    std::int32_t corner;
-  };
-  std::vector<Vertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::int32_t> faces;  // of each triangle
+  DeliveredArrays made;
 
   Frame(const data::ControlMesh& control, const reference::Topology& topology, const Settings& settings,
         const MutantRules& rules, std::span<const std::int32_t> depth)
@@ -166,31 +159,30 @@ class Frame {
     const auto third = reference::Parameter::fraction(1, 3);
     const auto face = static_cast<std::int32_t>(face_);
     const auto centre = centres_->evaluate(face, third, third, reference::Order::kFirst);
-    vertices.push_back({centre.position, centre.normal, {face, 1, 1, 3}, 0});
-    const auto middle = static_cast<std::uint32_t>(vertices.size() - 1);
+    const std::uint32_t middle = made.add_vertex(centre.position, centre.normal, {face, 1, 1, 3}, 0);
     for (std::size_t k = 0; k < border.size(); ++k) add({middle, border[k], border[(k + 1) % border.size()]});
   }
 
   void add(const std::array<std::uint32_t, 3>& triangle) {
-    triangles.push_back(triangle);
-    faces.push_back(static_cast<std::int32_t>(face_));
+    made.add_triangle(triangle, static_cast<std::int32_t>(face_));
   }
 
   std::uint32_t vertex(const Point& named) {
     const Point p = domain_.canonical(named, n_);
     const auto [known, is_new] =
-        known_.try_emplace({p.part, p.i, p.j}, static_cast<std::uint32_t>(vertices.size()));
+        known_.try_emplace({p.part, p.i, p.j}, static_cast<std::uint32_t>(made.positions.size()));
     if (!is_new) return known->second;
     const MutantLevel::Corner at =
         level_.corner(face_, {rules_.is("rows_of_7_bits") ? p.i & 127 : p.i, p.j, p.part});
-    Vertex made{level_.position(at), level_.normal(at), {}, p.part};
+    V position = level_.position(at), normal = level_.normal(at);
     if (rules_.is("sums_begun_in_face"))
-      made.position = rules_.limit(level_.ring(at).turned(face_), level_.depth());
-    if (rules_.is("normals_begun_in_face")) made.normal = rules_.normal(level_.ring(at).turned(face_));
-    made.place = {static_cast<std::int32_t>(face_), static_cast<std::uint32_t>(p.i),
-                  static_cast<std::uint32_t>(p.j), static_cast<std::uint32_t>(domain_.denominator(n_))};
-    vertices.push_back(made);
-    return known->second;
+      position = rules_.limit(level_.ring(at).turned(face_), level_.depth());
+    if (rules_.is("normals_begun_in_face")) normal = rules_.normal(level_.ring(at).turned(face_));
+    return made.add_vertex(
+        position, normal,
+        {static_cast<std::int32_t>(face_), static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
+         static_cast<std::uint32_t>(domain_.denominator(n_))},
+        p.part);
   }
 
   const data::ControlMesh& control_;
@@ -248,27 +240,10 @@ class ModelSubject {
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
     const std::span depth(request.face_depth, control_.faces.size());
-    std::unique_ptr<Frame> frame;
+    DeliveredArrays made;
     if (std::any_of(depth.begin(), depth.end(), [](std::int32_t d) { return d >= 0; }))
-      frame = std::make_unique<Frame>(control_, *topology_, settings_, *rules_, depth);
-    const std::size_t vertices = frame ? frame->vertices.size() : 0;
-    const std::size_t triangles = frame ? frame->triangles.size() : 0;
-    const auto output =
-        allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices),
-                              static_cast<std::int64_t>(triangles), !settings_.refined, !kLoop);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const auto& [p, n, place, corner] = frame->vertices[v];
-      for (std::size_t c = 3 * v; const double x : {p.x, p.y, p.z})
-        output.positions[c++] = static_cast<Real>(x);
-      for (std::size_t c = 3 * v; const double x : {n.x, n.y, n.z})
-        if (output.normals != nullptr) output.normals[c++] = static_cast<Real>(x);
-      output.provenance[v] = place;
-      if (output.corner != nullptr) output.corner[v] = corner;
-    }
-    for (std::size_t t = 0; t < triangles; ++t) {
-      std::copy(frame->triangles[t].begin(), frame->triangles[t].end(), output.triangles + 3 * t);
-      output.triangle_face[t] = frame->faces[t];
-    }
+      made = Frame(control_, *topology_, settings_, *rules_, depth).made;
+    made.hand_over<Real>(request, out, !settings_.refined, !kLoop);
   }
 
   const Settings settings_;

@@ -14,7 +14,6 @@
 #include <memory>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -185,39 +184,24 @@ class NaiveSubject {
       }
     });
     agree_on_borders(faces, depth);
-    std::int64_t vertices = 0, triangles = 0;
-    for (const auto& face : faces) {
-      if (face == nullptr) continue;
-      vertices += static_cast<std::int64_t>(face->vertices.size());
-      triangles += static_cast<std::int64_t>(face->triangles.size());
-    }
-    const auto output = allocate_output<double>(request, out, vertices, triangles, /*normals=*/true,
-                                                /*corners=*/scheme_ == data::Scheme::kCatmullClark);
-
-    std::int64_t v = 0, t = 0;
+    DeliveredArrays all;
     for (std::size_t k = 0; k < faces.size(); ++k) {
       if (faces[k] == nullptr) continue;
       const auto face = static_cast<std::int32_t>(k);
-      const auto base = static_cast<std::uint32_t>(v);
+      const auto base = static_cast<std::uint32_t>(all.positions.size());
       const auto denominator = static_cast<std::uint32_t>(
           std::max<std::int64_t>(1, domain(k).denominator(std::int64_t{1} << depth[k])));
-      for (const Corner& corner : faces[k]->vertices) {
-        const auto& [position, normal] = std::tie(corner.position, corner.normal);
-        for (std::int64_t c = 0; const double x : {position.x, position.y, position.z})
-          output.positions[3 * v + c++] = x;
-        for (std::int64_t c = 0; const double x : {normal.x, normal.y, normal.z})
-          output.normals[3 * v + c++] = x;
-        if (output.corner != nullptr) output.corner[v] = corner.at.part;
-        output.provenance[v++] = {face, static_cast<std::uint32_t>(corner.at.i),
-                                  static_cast<std::uint32_t>(corner.at.j), denominator};
-      }
-      for (const auto& triangle : faces[k]->triangles) {
-        for (std::int64_t c = 0; const std::uint32_t corner : triangle)
-          output.triangles[3 * t + c++] = base + corner;
-        output.triangle_face[t++] = face;
-      }
+      for (const Corner& corner : faces[k]->vertices)
+        all.add_vertex(corner.position, corner.normal,
+                       {face, static_cast<std::uint32_t>(corner.at.i),
+                        static_cast<std::uint32_t>(corner.at.j), denominator},
+                       corner.at.part);
+      for (const auto& [a, b, c] : faces[k]->triangles)
+        all.add_triangle({base + a, base + b, base + c}, face);
       faces[k].reset();
     }
+    all.hand_over<double>(request, out, /*with_normals=*/true,
+                          /*with_corners=*/scheme_ == data::Scheme::kCatmullClark);
   }
 
  private:

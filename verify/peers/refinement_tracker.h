@@ -103,23 +103,16 @@ class RefiningSubject {
       mesh.refine();
       tracker.step(mesh.vertex_count(), mesh.faces());
     }
-    const auto triangles = tracker.triangles();
-    const auto triangle_face = tracker.triangle_face();
-    const auto output =
-        allocate_output<Real>(request, out, mesh.vertex_count(), static_cast<std::int64_t>(triangles.size()),
-                              /*normals=*/false, control_.scheme == LC_SCHEME_CATMULL_CLARK);
-    std::int64_t v = 0;
+    DeliveredArrays all;
     for (const Place& p : tracker.places()) {
-      const std::array<double, 3> position = mesh.position(v);
-      for (std::int64_t c = 0; c < 3; ++c)
-        output.positions[3 * v + c] = static_cast<Real>(position[static_cast<std::size_t>(c)]);
-      if (output.corner != nullptr) output.corner[v] = p.corner;
-      output.provenance[v++] = {p.face, p.i, p.j, p.denominator};
+      all.positions.push_back(mesh.position(std::ssize(all.positions)));
+      all.provenance.push_back({p.face, p.i, p.j, p.denominator});
+      all.corner.push_back(p.corner);
     }
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      std::copy(triangles[t].begin(), triangles[t].end(), output.triangles + 3 * t);
-      output.triangle_face[t] = triangle_face[t];
-    }
+    all.triangles = tracker.triangles();
+    all.triangle_face = tracker.triangle_face();
+    all.hand_over<Real>(request, out, /*with_normals=*/false,
+                        /*with_corners=*/control_.scheme == LC_SCHEME_CATMULL_CLARK);
   }
 
   const lc_mesh control_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -11,6 +12,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/options.h"
@@ -106,6 +108,52 @@ Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, st
           out.triangle_face,
           out.corner};
 }
+
+/// A tessellation whose sizes are known only when it is done: in double, which holds a float exactly.
+struct DeliveredArrays {
+  using Vector = std::array<double, 3>;
+  std::vector<Vector> positions, normals;  // no normals: empty
+  std::vector<lc_provenance> provenance;
+  std::vector<std::int32_t> corner;  // empty: not delivered
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::int32_t> triangle_face;
+
+  /// Returns its number.
+  std::uint32_t add_vertex(const auto& position, const auto& normal, const lc_provenance& at,
+                           std::int32_t of_corner) {
+    positions.push_back({position.x, position.y, position.z});
+    normals.push_back({normal.x, normal.y, normal.z});
+    provenance.push_back(at);
+    corner.push_back(of_corner);
+    return static_cast<std::uint32_t>(positions.size() - 1);
+  }
+  void add_triangle(const std::array<std::uint32_t, 3>& triangle, std::int32_t face) {
+    triangles.push_back(triangle);
+    triangle_face.push_back(face);
+  }
+  /// To arrays that have room for it; what they have no array for is left out.
+  template <class Real>
+  void write(const Output<Real>& output) const {
+    const auto put = [](const std::vector<Vector>& list, Real* to) {
+      for (const Vector& p : list)
+        for (const double x : p) *to++ = static_cast<Real>(x);
+    };
+    put(positions, output.positions);
+    if (output.normals != nullptr) put(normals, output.normals);
+    std::copy(provenance.begin(), provenance.end(), output.provenance);
+    if (output.corner != nullptr) std::copy(corner.begin(), corner.end(), output.corner);
+    std::uint32_t* to = output.triangles;
+    for (const auto& t : triangles) to = std::copy(t.begin(), t.end(), to);
+    std::copy(triangle_face.begin(), triangle_face.end(), output.triangle_face);
+  }
+  /// To arrays of the host.
+  template <class Real>
+  void hand_over(const lc_request& request, lc_tessellation& out, bool with_normals,
+                 bool with_corners) const {
+    write(allocate_output<Real>(request, out, static_cast<std::int64_t>(positions.size()),
+                                static_cast<std::int64_t>(triangles.size()), with_normals, with_corners));
+  }
+};
 
 namespace detail {
 

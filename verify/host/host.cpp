@@ -13,6 +13,8 @@
 
 #include "data/error.h"
 #include "verify/host/host_memory.h"
+#include "verify/host/matching.h"
+#include "verify/host/refined_complex.h"
 #include "verify/host/subject_call.h"
 
 namespace limitcheck::verify {
@@ -43,12 +45,15 @@ std::string impossible(const lc_capabilities& c) {
                                {"normals", c.normals},
                                {"per_face_depth", c.per_face_depth},
                                {"exact_lattice", c.exact_lattice},
-                               {"does_not_validate", c.does_not_validate}})
+                               {"does_not_validate", c.does_not_validate},
+                               {"no_provenance", c.no_provenance}})
     if (choice.value != 0 && choice.value != 1)
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
     return fmt::format("schemes is {}", c.schemes);
   if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_NO_DARTS) return fmt::format("sharp is {}", c.sharp);
+  if (c.no_provenance != 0 && c.per_face_depth != 0)
+    return "no_provenance and per_face_depth are 1, and only uniform depths can do without provenance";
   if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
   return {};
 }
@@ -195,7 +200,15 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   } catch (...) {
     result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
   }
-  result.inspect(delivered, capabilities_.normals != 0);
+  std::function<Matching(const Bare&)> find_places;
+  if (capabilities_.no_provenance != 0)
+    find_places = [&](const Bare& t) {
+      const int depth = face_depth.empty() ? 0 : face_depth.front();
+      if (!expected_ || expected_->depth != depth)
+        expected_ = std::make_shared<RefinedComplex>(mesh_, lent_.scheme, depth);
+      return match(*expected_, t);
+    };
+  result.inspect(delivered, capabilities_.normals != 0, find_places);
 
   if (const LentMesh before(mesh_, lent_.scheme); !(before == lent_))
     result.defects_.push_back({Defect::Kind::kMeshModified, "mesh", 1, -1, changes(before, lent_)});

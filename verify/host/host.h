@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -31,6 +32,7 @@ struct Defect {
     kOverlappingArrays,  // two arrays share memory
     kIndexOutOfRange,    // a triangle names a vertex that does not exist
     kFaceOutOfRange,     // triangle_face names a control face that does not exist
+    kNotTheMesh,  // without provenance: the triangles are not connected as those of the mesh at its depth
     kProvenanceOutOfRange,  // face or corner does not exist, denominator 0, or a point outside the face
     kMeshModified,          // the subject wrote to the control mesh
     kThrew,                 // release() let an exception through
@@ -53,6 +55,9 @@ struct Overrun {
 namespace detail {
 class Memory;
 }
+struct Bare;  // matching.h
+struct Matching;
+struct RefinedComplex;
 
 /// What a subject delivered for one request. Owns its memory
 /// and outlives the session. Thread-safe for reading.
@@ -111,6 +116,8 @@ class Tessellation {
   /// Gives faces other numbers: face f of the request becomes to[f], one of `count` faces, or none (-1).
   void renumber_faces(std::span<const std::int32_t> to, std::int64_t count);
 
+  /// How the places were found; null if they were delivered.
+  const Matching* matching() const { return matching_.get(); }
   const std::vector<Defect>& defects() const { return defects_; }
   const std::vector<Overrun>& overruns() const { return overruns_; }
 
@@ -127,10 +134,14 @@ class Tessellation {
   }
   bool indices_ok(std::int64_t t) const;
   bool face_ok(std::int64_t t) const;
-  void inspect(const lc_tessellation& out, bool promises_normals);
+  // find_places: of a subject without provenance.
+  void inspect(const lc_tessellation& out, bool promises_normals,
+               const std::function<Matching(const Bare&)>& find_places);
   void inspect_contents();
+  void take_places(const std::function<Matching(const Bare&)>& find_places);
 
   std::shared_ptr<detail::Memory> memory_;
+  std::shared_ptr<Matching> matching_;
   lc_precision precision_ = LC_FLOAT32;
   data::Scheme scheme_ = data::Scheme::kLoop;
   std::vector<std::int32_t> face_sizes_;
@@ -196,6 +207,8 @@ class Session {
   LentMesh lent_;
   void* instance_ = nullptr;
   bool closed_ = false;
+  // Of a subject without provenance: what it has to deliver at the depth that was asked for last.
+  std::shared_ptr<const RefinedComplex> expected_;
 };
 
 /// What the system allows this program and those it starts less of than a subject may take (ulimit -v, -d, -n, -u),

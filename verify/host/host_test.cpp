@@ -53,6 +53,18 @@ lc_status status_of(const auto& work) {
   return LC_OK;
 }
 
+TEST(Capabilities, WithoutProvenanceDepthsAreUniform) {
+  static lc_subject subject = *lc_subject_bare();
+  subject.capabilities = [](const char*, lc_capabilities* out, const char**) {
+    return out->per_face_depth = out->no_provenance = 1, LC_OK;
+  };
+  EXPECT_THROW(capabilities(subject), SubjectDied);
+  subject.capabilities = [](const char*, lc_capabilities* out, const char**) {
+    return out->no_provenance = 1, LC_OK;
+  };
+  EXPECT_EQ(capabilities(subject).no_provenance, 1);
+}
+
 TEST(PlugInInterface, IsPlainC) {
   Session session(*subject_in_c(), octahedron());
   EXPECT_EQ(session.tessellate(0).vertex_count(), 0);

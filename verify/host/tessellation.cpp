@@ -7,6 +7,7 @@
 
 #include "verify/host/host.h"
 #include "verify/host/host_memory.h"
+#include "verify/host/matching.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
@@ -173,16 +174,19 @@ bool Tessellation::provenance_ok(std::int64_t v) const {
   return domain.contains(point_of(p), domain.steps(p.denominator));
 }
 
-void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
+void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
+                           const std::function<Matching(const Bare&)>& find_places) {
+  const bool delivered = !find_places;
   const std::size_t real = coordinate_size();
   const Arrays arrays{{
       {"positions", out.positions, out.vertex_count, 3 * real, real, true},
       {"normals", out.normals, out.vertex_count, 3 * real, real, promises_normals},
-      {"provenance", out.provenance, out.vertex_count, sizeof(lc_provenance), alignof(lc_provenance), true},
+      {"provenance", out.provenance, out.vertex_count, sizeof(lc_provenance), alignof(lc_provenance),
+       delivered},
       {"triangles", out.triangles, out.triangle_count, 3 * sizeof(std::uint32_t), alignof(std::uint32_t),
        true},
       {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
-       true},
+       delivered},
       {"corner", out.corner, out.vertex_count, sizeof(std::int32_t), alignof(std::int32_t), false},
   }};
   find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
@@ -198,7 +202,30 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals) {
   indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
   triangle_face_ = out.triangle_face;
   corner_ = out.corner;
-  inspect_contents();
+  if (delivered) {
+    inspect_contents();
+  } else {
+    take_places(find_places);
+  }
+}
+
+void Tessellation::take_places(const std::function<Matching(const Bare&)>& find_places) {
+  count_bad(
+      defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
+      [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
+  if (defects_.empty()) {
+    matching_ = std::make_shared<Matching>(
+        find_places({vertices_, triangles(), [this](std::int64_t v) { return position(v); }}));
+    if (matching_->not_judged) throw NotAsked("without provenance: " + matching_->failure);
+    if (!matching_->failure.empty()) note(defects_, Kind::kNotTheMesh, "triangles", matching_->failure);
+  }
+  if (!defects_.empty()) {
+    vertices_ = triangles_ = 0;
+    return;
+  }
+  provenance_ = matching_->provenance.data();
+  corner_ = matching_->corner.data();
+  triangle_face_ = matching_->triangle_face.data();
 }
 
 void Tessellation::inspect_contents() {

@@ -24,6 +24,7 @@ const lc_subject* lc_subject_model();  // right, or wrong in one stated way: ver
 const lc_subject* lc_subject_quad_model();  // the same of Catmull-Clark's surfaces
 const lc_subject* lc_subject_faulty();      // options: verify/mutants/faulty_subjects.h
 const lc_subject* lc_subject_unusual();     // options: the same
+const lc_subject* lc_subject_bare();        // options: bare=SUBJECT first
 }
 
 namespace limitcheck::verify {

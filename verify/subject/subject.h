@@ -131,6 +131,11 @@ typedef struct lc_capabilities {
   /* 1: relies on its callers to hand over oriented manifolds with vertices that exist and finite coordinates,
    * and is handed nothing else; 0: refuses others */
   int32_t does_not_validate;
+  /* 1: delivers neither provenance nor triangle_face nor corner. The host finds them by how the triangles are
+   * connected, which are those of the whole mesh at one depth (per_face_depth is 0): each face cut into 4^depth
+   * triangles or, by Catmull-Clark, into quads of two triangles that follow one another. Vertices that several faces
+   * share may be delivered once, or once for each face with equal bits. */
+  int32_t no_provenance;
 } lc_capabilities;
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or

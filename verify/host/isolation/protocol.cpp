@@ -80,18 +80,20 @@ void read_rows(Source& source, const lc_tessellation& out) {
     Row row(source, "vertex", v);
     for (int c = 0; c < 3; ++c) *position++ = row.next<Real>();
     for (int c = 0; normal != nullptr && c < 3; ++c) *normal++ = row.next<Real>();
-    lc_provenance& p = out.provenance[v];
-    p.face = row.next<std::int32_t>();
-    p.i = row.next<std::uint32_t>();
-    p.j = row.next<std::uint32_t>();
-    p.denominator = row.next<std::uint32_t>();
+    if (out.provenance != nullptr) {
+      lc_provenance& p = out.provenance[v];
+      p.face = row.next<std::int32_t>();
+      p.i = row.next<std::uint32_t>();
+      p.j = row.next<std::uint32_t>();
+      p.denominator = row.next<std::uint32_t>();
+    }
     if (out.corner != nullptr) out.corner[v] = row.next<std::int32_t>();
     row.finish();
   }
   for (std::int64_t t = 0; t < out.triangle_count; ++t) {
     Row row(source, "triangle", t);
     for (int c = 0; c < 3; ++c) out.triangles[3 * t + c] = row.next<std::uint32_t>();
-    out.triangle_face[t] = row.next<std::int32_t>();
+    if (out.triangle_face != nullptr) out.triangle_face[t] = row.next<std::int32_t>();
     row.finish();
   }
 }
@@ -231,6 +233,7 @@ Capabilities read_capabilities(Source& source) {
   c.schemes = version == 1 ? std::int32_t{LC_DOES_LOOP} : schemes_of(header);
   c.sharp = version == 1 ? 0 : sharp_of(header);
   if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
+  if (header.has("provenance")) c.no_provenance = header.flag("provenance") ? 0 : 1;
   if (header.has("options")) result.options = header.text("options");
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
@@ -273,10 +276,13 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   out.triangle_count = triangles;
   out.positions = get(vertices, point);
   out.normals = normals ? get(vertices, point) : nullptr;
-  out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
   out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
-  out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
-  if (capabilities.version > 1) out.corner = static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t)));
+  if (capabilities.values.no_provenance == 0) {
+    out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
+    out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
+  }
+  if (capabilities.version > 1 && out.provenance != nullptr)
+    out.corner = static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t)));
 
   if (capabilities.payload == Payload::kText) {
     if (capabilities.values.precision == LC_FLOAT32) {

@@ -176,6 +176,28 @@ TEST(Protocol, ReadsTextAndBinaryToTheSameArrays) {
   }
 }
 
+TEST(Protocol, WithoutProvenanceHasPointsAndTrianglesAlone) {
+  Capabilities c = capabilities_of("{" + kHello + ", \"provenance\": false}\n");
+  EXPECT_EQ(c.values.no_provenance, 1);
+  const float numbers[] = {1, 2, 3, 0, 0, 1};
+  const std::uint32_t corners[] = {0, 0, 0};
+  std::string bytes = kText;
+  bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
+  for (const auto& [payload, answer] :
+       {std::pair{Payload::kBinary, bytes}, {Payload::kText, kText + "1 2 3 0 0 1\n0 0 0\n"}}) {
+    c.payload = payload;
+    Read r;
+    MemorySource source(answer);
+    read_tessellation(source, c, 1 << 20, r.request, r.out);
+    EXPECT_EQ(std::memcmp(r.out.positions, numbers, sizeof numbers / 2), 0);
+    EXPECT_EQ(std::memcmp(r.out.triangles, corners, sizeof corners), 0);
+    EXPECT_EQ(r.out.provenance, nullptr);
+    EXPECT_EQ(r.out.triangle_face, nullptr);
+    EXPECT_EQ(r.out.corner, nullptr);
+  }
+}
+
 TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
   Capabilities c = capabilities_of(
       R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"

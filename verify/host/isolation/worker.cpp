@@ -128,6 +128,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"per_face_depth", c.per_face_depth != 0},
           {"exact_lattice", c.exact_lattice != 0},
           {"does_not_validate", c.does_not_validate != 0},
+          {"provenance", c.no_provenance == 0},
           {"options", subject.options != nullptr ? subject.options : ""}};
 }
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "verify/host/refined_complex.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <unordered_map>
+
+#include "verify/subject/face_domain.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+Vector mix(const Vector& a, const Vector& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
+}  // namespace
+
+void Cells::add(std::initializer_list<std::int32_t> cell) {
+  corners.insert(corners.end(), cell);
+  first.push_back(static_cast<std::int64_t>(corners.size()));
+}
+
+bool Cells::connect(std::int64_t vertices) {
+  const auto sides = static_cast<std::int64_t>(corners.size());
+  cell_of.resize(corners.size());
+  across.assign(corners.size(), -1);
+  valence.assign(vertices, 0);
+  on_boundary.assign(vertices, 0);
+  for (std::int64_t c = 0; c < count(); ++c)
+    std::fill(cell_of.begin() + first[c], cell_of.begin() + first[c + 1], static_cast<std::int32_t>(c));
+  for (std::int64_t s = 0; s < sides; ++s) {
+    if (from(s) == to(s)) return false;
+    ++valence[from(s)];
+  }
+  // The sides that begin at each vertex, and those that end there.
+  std::vector<std::int64_t> at(static_cast<std::size_t>(vertices) + 1), begin_at(corners.size()),
+      end_at(corners.size());
+  std::partial_sum(valence.begin(), valence.end(), at.begin() + 1,
+                   [](std::int64_t a, std::int64_t b) { return a + b; });
+  std::vector<std::int64_t> begun(at), ended(at);
+  for (std::int64_t s = 0; s < sides; ++s) {
+    begin_at[begun[from(s)]++] = s;
+    end_at[ended[to(s)]++] = s;
+  }
+  // Of the sides from one vertex to another how many there are and the last of them; looked up where there are fewer.
+  const auto find = [&](std::int32_t a, std::int32_t b) {
+    std::pair<int, std::int64_t> found{0, -1};
+    if (valence[a] <= valence[b]) {
+      for (std::int64_t k = at[a]; k < at[a + 1]; ++k)
+        if (to(begin_at[k]) == b) ++found.first, found.second = begin_at[k];
+    } else {
+      for (std::int64_t k = at[b]; k < at[b + 1]; ++k)
+        if (from(end_at[k]) == a) ++found.first, found.second = end_at[k];
+    }
+    return found;
+  };
+  for (std::int64_t s = 0; s < sides; ++s) {
+    const auto [others, other] = find(to(s), from(s));
+    if (others > 1 || find(from(s), to(s)).first > 1) return false;
+    across[s] = other;
+    if (other < 0) on_boundary[from(s)] = on_boundary[to(s)] = 1;
+  }
+  return true;
+}
+
+Cells Cells::reversed() const {
+  Cells other;
+  other.first = first;
+  other.corners = corners;
+  for (std::int64_t c = 0; c < count(); ++c)
+    std::reverse(other.corners.begin() + first[c], other.corners.begin() + first[c + 1]);
+  other.cell_of = cell_of;
+  other.valence = valence;
+  other.on_boundary = on_boundary;
+  other.across.resize(across.size());
+  // Side k of n is side n - 2 - k then, and the last one is the last one.
+  const auto turned = [this](std::int64_t s) {
+    const std::int64_t begin = first[cell_of[s]], end = first[cell_of[s] + 1];
+    return s + 1 == end ? s : begin + end - 2 - s;
+  };
+  for (std::int64_t s = 0; s < std::ssize(across); ++s)
+    other.across[turned(s)] = across[s] < 0 ? -1 : turned(across[s]);
+  return other;
+}
+
+RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int steps_down)
+    : depth(steps_down) {
+  std::unordered_map<std::uint64_t, std::int32_t> edges;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t k = 0; k < mesh.faces[f].size(); ++k)
+      edges.try_emplace(edge_key(mesh.faces[f][k], mesh.faces[f][(k + 1) % mesh.faces[f].size()]),
+                        static_cast<std::int32_t>(edges.size()));
+  const auto controls = static_cast<std::int64_t>(mesh.positions.size());
+  const std::int64_t n = std::int64_t{1} << depth;
+  std::int64_t inner = controls + static_cast<std::int64_t>(edges.size()) * (n - 1);
+
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto face = mesh.faces[f];
+    const auto size = static_cast<int>(face.size());
+    const FaceDomain domain(scheme, size);
+    const bool whole = depth == 0 && domain.parts() > 1;  // a cell that has the corners of the face
+    const std::int64_t steps = whole ? 2 : n, most = domain.denominator(steps);
+    Vector middle{};
+    for (const std::int32_t v : face)
+      for (int axis = 0; axis < 3; ++axis) middle[axis] += mesh.positions[v][axis] / size;
+    const auto corner_position = [&](int k) { return mesh.positions[face[k]]; };
+    const auto about_of = [&](const FaceDomain::Point& p) {
+      const double u = static_cast<double>(p.i) / static_cast<double>(most),
+                   v = static_cast<double>(p.j) / static_cast<double>(most);
+      if (scheme == data::Scheme::kLoop) {
+        Vector sum{};
+        for (int axis = 0; axis < 3; ++axis)
+          sum[axis] = (1 - u - v) * corner_position(0)[axis] + u * corner_position(1)[axis] +
+                      v * corner_position(2)[axis];
+        return sum;
+      }
+      const Vector own = corner_position(p.part), after = corner_position(domain.next(p.part));
+      if (domain.parts() == 1)
+        return mix(mix(own, after, u), mix(corner_position(3), corner_position(2), u), v);
+      const Vector before = corner_position(domain.previous(p.part));
+      return mix(mix(own, mix(own, after, .5), u), mix(mix(own, before, .5), middle, u), v);
+    };
+    const auto vertex = [&](FaceDomain::Point p) {
+      p = domain.canonical(p, steps);
+      std::int64_t id = 0;
+      if (const auto at = domain.side_of(p, steps)) {
+        const std::int32_t a = face[at->side], b = face[domain.next(at->side)];
+        id = at->along == 0
+                 ? a
+                 : controls + edges.at(edge_key(a, b)) * (n - 1) + (a < b ? at->along : n - at->along) - 1;
+      } else {
+        id = inner + domain.inner_number(p, steps);
+      }
+      if (id >= static_cast<std::int64_t>(place.size())) {
+        place.resize(id + 1, {-1, 0, 0, 1});
+        corner.resize(id + 1);
+        about.resize(id + 1);
+      }
+      if (place[id].face < 0) {
+        place[id] = {static_cast<std::int32_t>(f), static_cast<std::uint32_t>(p.i),
+                     static_cast<std::uint32_t>(p.j), static_cast<std::uint32_t>(most)};
+        corner[id] = p.part;
+        about[id] = about_of(p);
+      }
+      return static_cast<std::int32_t>(id);
+    };
+    if (whole) {
+      for (int k = 0; k < size; ++k) cells.corners.push_back(vertex(domain.corner_point(k, steps)));
+      cells.first.push_back(static_cast<std::int64_t>(cells.corners.size()));
+    } else if (scheme == data::Scheme::kLoop) {
+      for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = 0; i + j < n; ++i) {
+          cells.add({vertex({i, j}), vertex({i + 1, j}), vertex({i, j + 1})});
+          if (i + j + 1 < n) cells.add({vertex({i + 1, j}), vertex({i + 1, j + 1}), vertex({i, j + 1})});
+        }
+    } else {
+      for (std::int32_t part = 0; part < domain.parts(); ++part)
+        for (std::int64_t j = 0; j < most; ++j)
+          for (std::int64_t i = 0; i < most; ++i)
+            cells.add({vertex({i, j, part}), vertex({i + 1, j, part}), vertex({i + 1, j + 1, part}),
+                       vertex({i, j + 1, part})});
+    }
+    face_of_cell.resize(static_cast<std::size_t>(cells.count()), static_cast<std::int32_t>(f));
+    if (!whole) inner += domain.inner_count(steps);
+  }
+  cells.connect(static_cast<std::int64_t>(place.size()));
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// How the cells of a mesh are connected: those of a control mesh refined uniformly, or those that were delivered.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "data/control_mesh.h"
+#include "data/scheme.h"
+#include "verify/subject/subject.h"
+
+namespace limitcheck::verify {
+
+/// Cells are polygons. A side is numbered through all cells: side k of cell c is first[c] + k, from its corner k to the next.
+struct Cells {
+  std::vector<std::int32_t> corners;      // vertices, one cell after the other
+  std::vector<std::int64_t> first = {0};  // of each cell, and one behind the last
+  std::vector<std::int64_t> across;       // of each side the one of the neighbour, or -1
+  std::vector<std::int32_t> cell_of;      // of each side
+  std::vector<std::int32_t> valence;      // cells at each vertex
+  std::vector<std::uint8_t> on_boundary;  // of each vertex
+
+  std::int64_t count() const { return static_cast<std::int64_t>(first.size()) - 1; }
+  std::int64_t size(std::int64_t cell) const { return first[cell + 1] - first[cell]; }
+  std::int64_t next(std::int64_t side) const {
+    const std::int64_t cell = cell_of[side];
+    return side + 1 == first[cell + 1] ? first[cell] : side + 1;
+  }
+  std::int32_t from(std::int64_t side) const { return corners[side]; }
+  std::int32_t to(std::int64_t side) const { return corners[next(side)]; }
+  void add(std::initializer_list<std::int32_t> cell);
+  /// Finds the neighbours. False if a side has three cells or two that run the same way along it.
+  bool connect(std::int64_t vertices);
+  /// All cells the other way round; connect() has been called.
+  Cells reversed() const;
+};
+
+/// The control mesh refined `depth` times, without positions that mean anything: `about` is where the control mesh is there.
+struct RefinedComplex {
+  ///   mesh    valid for the scheme
+  ///   depth   0 or more
+  RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int depth);
+
+  const int depth;
+  Cells cells;
+  std::vector<std::int32_t> face_of_cell;
+  std::vector<lc_provenance> place;
+  std::vector<std::int32_t> corner;
+  std::vector<std::array<double, 3>> about;
+};
+
+}  // namespace limitcheck::verify

@@ -186,7 +186,7 @@ void put_in_words(const Report& report, Cause& cause) {
               ? fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "))
               : fmt::format("{}: {}", fmt::join(checks, ", "),
                             example.message.empty() ? "beyond its bound" : first_sentence(example.message));
-      if (worst > 0 && example.unit == "bounds")
+      if (worst > 1 && example.unit == "bounds")
         cause.title += fmt::format(", up to {:.2g} times what rounding explains", worst);
       cause.look = cause.kind == CauseKind::kOrder ? first_sentence(example.message) : "";
       cause.size = worst >= 100 ? 3 : 2;

@@ -182,6 +182,15 @@ std::vector<Change> faults_of_polygons() {
                   if (a.is_polygon(static_cast<std::size_t>(out.triangle_face[t])))
                     std::swap(out.triangles[t][1], out.triangles[t][2]);
               }),
+      vertex("by_parameter", "points on sides are one ulp off where the parameter along the side is small",
+             "corner-rotation",
+             [](A a, D out, std::size_t v) {
+               const Place p = out.place(v);
+               const auto at = a.side_of(p);
+               if (!at || at->along == 0) return;
+               const std::int64_t n = a.steps(p), along = at->side >= 2 ? n - at->along : at->along;
+               if (2 * along < n) out.move_up(v);
+             }),
       of_polygons("ulp_on_polygons", "points of faces that are no quads are one ulp off", "shared-positions",
                   [](A, D out, std::size_t v) { out.move_up(v); }),
   };

@@ -77,6 +77,13 @@ bool same_arrays(const Tessellation& a, const Tessellation& b) {
 
 }  // namespace
 
+void SharedPointBits::add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side) {
+  const std::int64_t first = at_point_.emplace(point, vertex).first->second;
+  const std::int64_t first_of_side = of_side_.emplace(side, vertex).first->second;
+  unlike_ += !same_bits(t.position(vertex), t.position(first)) ||
+             (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)));
+}
+
 Compared::Compared(const Evidence& e)
     : e_(e), uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(), [&](std::int32_t d) {
         return d == e.face_depth[0];
@@ -92,7 +99,10 @@ Compared::Compared(const Evidence& e)
       several_.push_back({*at.face_and_point, 0, its.last = v});
     }
     by_point_.emplace(at.id, v);
-    if (!is_finite(e.tessellation, v)) not_finite_.insert(at.id);
+    if (!is_finite(e.tessellation, v))
+      not_finite_.insert(at.id);
+    else if (e.lattice.is_shared(at.id))
+      shared_.add(e.tessellation, v, at.id, at.side);
   }
   for (Digest& d : several_) {
     const Vector normal = e.tessellation.has_normals() ? e.tessellation.normal(d.vertex) : Vector{};
@@ -106,6 +116,8 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
   const bool normals = v.normals && t.has_normals() && e_.tessellation.has_normals();
   std::vector<bool> seen(e_.lattice.size(), false);
   std::unordered_set<Lattice::Id> not_finite;
+  SharedPointBits shared;
+  const bool cut = v.mesh.positions.size() > e_.mesh.positions.size();  // its sides have nothing in common
   const auto note = [&](double excess, std::int64_t mine, const Vector& expected, const Vector& got) {
     if (c.witness && excess <= c.worst) return;
     c.worst = excess;
@@ -125,7 +137,10 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
       continue;
     }
     seen[at.id] = true;
-    if (!is_finite(t, k)) not_finite.insert(at.id);
+    if (!is_finite(t, k))
+      not_finite.insert(at.id);
+    else if (e_.lattice.is_shared(at.id))
+      shared.add(t, k, cut ? at.side : at.id, at.side);
     if (!is_finite(t, k) || not_finite_.contains(at.id)) continue;
     ++c.of;
     std::int64_t mine = exact != by_face_.end() ? exact->second.last : any->second;
@@ -162,6 +177,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.message =
         fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
+  if (shared_.unlike() == 0) c.split = shared.unlike();
   // Next to deeper neighbours a face may be displayed deeper than asked for; which face is may depend on the
   // order.
   for (const auto& [id, vertex] : by_point_)
@@ -253,6 +269,14 @@ void RelationRow::judge(const std::string& what, const Comparison& c, bool bits_
     comparison_ = fmt::format(
         "{}: positions differ by up to {:.2g} diagonals, normals by {:.2g} degrees; {} of {} in bits", what,
         c.position, c.normal, c.other_bits, c.of);
+  }
+  if (c.split > 0) {
+    r_.bad += c.split;
+    note(Status::kFinding,
+         fmt::format(
+             "{}: {} vertices at points that faces share have other bits than the first one there, none in "
+             "the original",
+             what, c.split));
   }
   if (c.bad > 0)
     note(Status::kFinding, c.message.empty() ? "" : fmt::format("{}: {}", what, c.message));

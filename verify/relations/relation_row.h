@@ -21,10 +21,24 @@ namespace limitcheck::verify {
 struct Comparison {
   std::int64_t of = 0, bad = 0, other_bits = 0;
   std::int64_t not_finite = 0;      // points that are, in the original
+  std::int64_t split = 0;           // shared points delivered with unlike bits, where the original has none
   double position = 0, normal = 0;  // the largest differences: diagonals, degrees
   double worst = 0;                 // the largest of both in units of its bound
   std::optional<Witness> witness;
   std::string message;
+};
+
+/// Counts the vertices at shared points whose bits are not those of the first one there: of positions at the point, of
+/// normals at its side.
+class SharedPointBits {
+ public:
+  void add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side);
+  std::int64_t unlike() const { return unlike_; }
+
+ private:
+  std::unordered_map<Lattice::Id, std::int64_t> at_point_;
+  std::unordered_map<Sides::Id, std::int64_t> of_side_;
+  std::int64_t unlike_ = 0;
 };
 
 /// Compares with the tessellation of the evidence, which outlives this.
@@ -33,7 +47,8 @@ class Compared {
   explicit Compared(const Evidence& e);
 
   /// `t` is what the subject made of `v`; `slack` is how many results' errors may add up. Points that are not
-  /// finite on either side are left out, as long as there are no more of them than in the original.
+  /// finite on either side are left out, as long as there are no more of them than in the original. What faces share
+  /// has to have equal bits in each variant, if it has in the original: how a mesh is written is no excuse.
   Comparison with(const Tessellation& t, const Variant& v, double slack) const;
 
  private:
@@ -60,6 +75,7 @@ class Compared {
   std::vector<Digest> several_;  // all vertices where a face delivers a point more than once, sorted
   std::unordered_map<Lattice::Id, std::int64_t> by_point_;
   std::unordered_set<Lattice::Id> not_finite_;  // points
+  SharedPointBits shared_;
 };
 
 /// What a request came to that ended with an error.

@@ -38,7 +38,8 @@ namespace limitcheck::verify {
 /// Those of sharp edges are there only for meshes that have what they need: relation_rows_of().
 /// The rows from face-order to fractional-sharpness hold if positions and normals differ by at most twice
 /// what one result may be off; a smaller difference in bits is a quality warning if the subject was given the
-/// same numbers.
+/// same numbers. They are findings, too, if a point that faces share is delivered with unlike bits in a variant and never in
+/// the original: faces begun at other corners show it where a mesh is written too evenly.
 const std::vector<std::string_view>& relation_rows();
 /// Those that a mesh has.
 std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme);

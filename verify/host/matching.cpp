@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -17,31 +19,42 @@
 namespace limitcheck::verify {
 namespace {
 
+using Point = std::array<double, 3>;
+
 constexpr std::size_t kMostWays = 8;
+constexpr unsigned kNear =
+    64;  // candidates that begin nearest to where one is expected, and as many that end so
+constexpr std::size_t kSample = 63;             // vertices of a part at which ways are compared
 constexpr std::int64_t kMostSteps = 5'000'000;  // sides looked at for a connected part
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ x >> 27) * 0x94D049BB133111EBULL;
+  return x ^ x >> 31;
+}
+
 // The number of each vertex after those at equal coordinates are one.
 std::vector<std::int32_t> weld(const Bare& t, std::int64_t* count) {
-  std::map<std::array<std::uint64_t, 3>, std::int32_t> numbers;
+  using Bits = std::array<std::uint64_t, 3>;
+  const auto hash = [](const Bits& b) { return mixed(b[0] + mixed(b[1] + mixed(b[2]))); };
+  std::unordered_map<Bits, std::int32_t, decltype(hash)> numbers(static_cast<std::size_t>(t.vertices), hash);
   std::vector<std::int32_t> number(t.vertices);
-  for (std::int64_t v = 0; v < t.vertices; ++v) {
-    std::array<std::uint64_t, 3> bits{};
-    const auto p = t.position(v);
-    for (std::size_t k = 0; k < 3; ++k) bits[k] = std::bit_cast<std::uint64_t>(p[k]);
-    number[v] = numbers.try_emplace(bits, static_cast<std::int32_t>(numbers.size())).first->second;
-  }
+  for (std::int64_t v = 0; v < t.vertices; ++v)
+    number[v] =
+        numbers.try_emplace(std::bit_cast<Bits>(t.position(v)), static_cast<std::int32_t>(numbers.size()))
+            .first->second;
   *count = static_cast<std::int64_t>(numbers.size());
   return number;
 }
 
-bool coincide(std::vector<std::array<double, 3>> points) {
+bool coincide(std::vector<Point> points) {
   std::sort(points.begin(), points.end());
   return std::adjacent_find(points.begin(), points.end()) != points.end();
 }
 
-// Triangles that follow one another and share sides, as one polygon of `size` corners; nothing if they do not.
+// Triangles that follow one another and share sides, as one polygon; nothing if they do not.
 std::optional<std::vector<std::int32_t>> polygon(std::span<const std::array<std::int32_t, 3>> triangles) {
   std::vector<std::int32_t> corners(triangles[0].begin(), triangles[0].end());
   for (const auto& t : triangles.subspan(1)) {
@@ -87,12 +100,6 @@ std::uint64_t signature(const Cells& c, std::int64_t side) {
   return end(c.from(side)) << 41 ^ end(c.to(side)) << 19 ^ size << 1 ^ (c.across[side] < 0 ? 1U : 0U);
 }
 
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ x >> 27) * 0x94D049BB133111EBULL;
-  return x ^ x >> 31;
-}
-
 // The cells that are connected with a cell, itself first; `seen` has those that belong to a part.
 std::vector<std::int64_t> part_of(const Cells& c, std::int64_t cell, std::vector<std::uint8_t>& seen) {
   std::vector<std::int64_t> part{cell};
@@ -127,10 +134,10 @@ std::vector<std::uint64_t> marks(const Cells& c) {
 class Laying {
  public:
   Laying(const RefinedComplex& expected, const Cells& delivered)
-      : expected_(expected.cells),
+      : complex_(expected),
+        expected_(expected.cells),
         delivered_(delivered),
-        about_(expected.about),
-        vertex_(expected.place.size(), -1),
+        vertex_(expected.side_at.size(), -1),
         taken_(delivered.valence.size(), -1),
         side_(expected.cells.corners.size(), -1) {}
 
@@ -155,20 +162,23 @@ class Laying {
       side_[s] = -1;
     }
   }
-  // The median distance of its vertices from where the control mesh is.
-  double distance(const std::function<std::array<double, 3>(std::int32_t)>& position) const {
+  // The median distance of a sample of its vertices from where the surface is.
+  double distance(const std::function<Point(std::int32_t)>& position) const {
     std::vector<double> squares;
-    squares.reserve(sides.size());
-    for (const std::int64_t s : sides)
-      squares.push_back(square(position(vertex_[expected_.from(s)]), expected_.from(s)));
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    const std::size_t count = std::min(kSample, sides.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int32_t v = expected_.from(sides[k * sides.size() / count]);
+      squares.push_back(square(position(vertex_[v]), v));
+    }
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(count / 2);
     std::nth_element(squares.begin(), middle, squares.end());
     return *middle;
   }
-  double square(const std::array<double, 3>& p, std::int32_t v) const {
+  double square(const Point& p, std::int32_t v) const {
+    const Point q = complex_.on_surface(v);
     double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += (p[k] - about_[v][k]) * (p[k] - about_[v][k]);
-    return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
+    for (std::size_t k = 0; k < 3; ++k) sum += (p[k] - q[k]) * (p[k] - q[k]);
+    return std::isnan(sum) ? kNowhere : sum;
   }
   const std::vector<std::int32_t>& on_delivered_vertex() const { return taken_; }
   std::int64_t delivered_side(std::int64_t side) const { return side_[side]; }
@@ -193,18 +203,55 @@ class Laying {
     return true;
   }
 
+  const RefinedComplex& complex_;
   const Cells& expected_;
   const Cells& delivered_;
-  const std::vector<std::array<double, 3>>& about_;
   std::vector<std::int32_t> vertex_,
       taken_;                       // of an expected vertex the delivered one, and the other way round
   std::vector<std::int64_t> side_;  // of an expected side the delivered one
 };
 
+// Delivered sides that have their mark in common. Of many those are found first that begin or end nearest to where a side
+// is expected; a mesh may be thousands of equal parts.
+class Alike {
+ public:
+  std::vector<std::int64_t> sides;
+
+  /// All, or of very many those near to the ends a and b of the side that is expected.
+  template <class Ends>
+  std::vector<std::int64_t> near(const Point& a, const Point& b, const Ends& ends) {
+    if (!are_many()) return sides;
+    for (std::size_t end = 0; end < 2 && trees_[end].empty(); ++end) {
+      std::vector<Entry> entries;
+      for (const std::int64_t s : sides) {
+        const Point p = ends(s)[end];
+        if (std::isfinite(p[0] + p[1] + p[2])) entries.push_back({at(p), s});
+      }
+      trees_[end] = Tree(entries);
+    }
+    std::vector<Entry> found;
+    trees_[0].query(boost::geometry::index::nearest(at(a), kNear), std::back_inserter(found));
+    trees_[1].query(boost::geometry::index::nearest(at(b), kNear), std::back_inserter(found));
+    std::vector<std::int64_t> some;
+    for (const Entry& e : found) some.push_back(e.second);
+    std::sort(some.begin(), some.end());
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+    return some;
+  }
+  bool are_many() const { return sides.size() > 4 * kNear; }
+
+ private:
+  using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Entry = std::pair<Corner, std::int64_t>;
+  using Tree = boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<16>>;
+  static Corner at(const Point& p) { return {p[0], p[1], p[2]}; }
+
+  Tree trees_[2];  // of where they begin, of where they end
+};
+
 // Lays all parts; returns the sum of their distances, infinite if one has no place. `ways` as in Matching.
 double lay_all(const RefinedComplex& expected, const Cells& delivered,
-               const std::function<std::array<double, 3>(std::int32_t)>& position, Laying& laying,
-               std::int64_t& ways) {
+               const std::function<Point(std::int32_t)>& position, Laying& laying, std::int64_t& ways) {
   const std::vector<std::uint64_t> mark = marks(expected.cells), delivered_mark = marks(delivered);
   std::unordered_map<std::uint64_t, std::int64_t> count;
   for (const std::uint64_t m : delivered_mark) ++count[m];
@@ -222,37 +269,44 @@ double lay_all(const RefinedComplex& expected, const Cells& delivered,
       }
     begins.push_back(rarest);
   }
-  std::unordered_map<std::uint64_t, std::vector<std::int64_t>> alike;
+  std::unordered_map<std::uint64_t, Alike> alike;
   for (const std::int64_t s : begins) alike.try_emplace(mark[s]);
   for (std::int64_t s = 0; s < std::ssize(delivered_mark); ++s)
-    if (const auto like = alike.find(delivered_mark[s]); like != alike.end()) like->second.push_back(s);
+    if (const auto like = alike.find(delivered_mark[s]); like != alike.end()) like->second.sides.push_back(s);
 
+  const auto ends = [&](std::int64_t side) {
+    return std::array{position(delivered.from(side)), position(delivered.to(side))};
+  };
   double sum = 0;
   for (const std::int64_t on : begins) {
     const std::int32_t a = expected.cells.from(on), b = expected.cells.to(on);
-    std::vector<std::pair<std::pair<double, double>, std::int64_t>> candidates;
-    for (const std::int64_t to : alike.at(mark[on])) {
-      if (laying.on_delivered_vertex()[delivered.from(to)] >= 0) continue;
-      // A vertex that is wrong does not decide, if the other one is right.
-      const auto [near, far] = std::minmax(
-          {laying.square(position(delivered.from(to)), a), laying.square(position(delivered.to(to)), b)});
-      candidates.push_back({{near, far}, to});
-    }
-    std::sort(candidates.begin(), candidates.end());
     std::int64_t best = -1, steps = 0;
     double least = kNowhere;
     std::size_t fitting = 0;
-    for (const auto& [distances, to] : candidates) {
-      const bool fits = laying.lay(on, to);
-      steps += std::ssize(laying.sides);
-      if (fits) {
-        const double distance = laying.distance(position);
-        if (best < 0 || distance < least) best = to, least = distance;
-        laying.take_away();
-        ++fitting;
+    const auto try_out = [&](const std::vector<std::int64_t>& sides) {
+      std::vector<std::pair<std::pair<double, double>, std::int64_t>> candidates;
+      for (const std::int64_t to : sides) {
+        if (laying.on_delivered_vertex()[delivered.from(to)] >= 0) continue;
+        // A vertex that is wrong does not decide, if the other one is right.
+        const auto [from, until] = ends(to);
+        candidates.push_back({std::minmax({laying.square(from, a), laying.square(until, b)}), to});
       }
-      if (fitting == kMostWays || steps > std::max(kMostSteps, 8 * std::ssize(mark))) break;
-    }
+      std::sort(candidates.begin(), candidates.end());
+      for (const auto& [distances, to] : candidates) {
+        const bool fits = laying.lay(on, to);
+        steps += std::ssize(laying.sides);
+        if (fits) {
+          const double distance = laying.distance(position);
+          if (best < 0 || distance < least) best = to, least = distance;
+          laying.take_away();
+          ++fitting;
+        }
+        if (fitting == kMostWays || steps > std::max(kMostSteps, 8 * std::ssize(mark))) break;
+      }
+    };
+    Alike& like = alike.at(mark[on]);
+    try_out(like.near(expected.on_surface(a), expected.on_surface(b), ends));
+    if (best < 0 && like.are_many()) try_out(like.sides);
     if (best < 0) return kNowhere;
     laying.lay(on, best);
     sum += least;
@@ -268,7 +322,7 @@ Matching match(const RefinedComplex& expected, const Bare& t) {
   Matching result;
   std::int64_t triangles = 0;
   for (std::int64_t c = 0; c < expected.cells.count(); ++c) triangles += expected.cells.size(c) - 2;
-  const auto vertices = std::ssize(expected.place);
+  const std::int64_t vertices = expected.vertices;
   if (std::ssize(t.triangles) != triangles) {
     result.failure = fmt::format("{} triangles were delivered; the mesh has {} at depth {}",
                                  t.triangles.size(), triangles, depth);
@@ -321,17 +375,25 @@ Matching match(const RefinedComplex& expected, const Bare& t) {
   }
   result.provenance.resize(t.vertices);
   result.corner.resize(t.vertices);
-  for (std::int64_t v = 0; v < t.vertices; ++v) {
-    const std::int32_t on = laying->on_delivered_vertex()[number[v]];
-    result.provenance[v] = expected.place[on];
-    result.corner[v] = expected.corner[on];
-  }
-  std::vector<std::int32_t> face(delivered->count());
+  const auto put = [&](std::uint32_t v, std::int64_t side) {
+    result.provenance[v] = expected.place[side];
+    result.corner[v] = expected.corner[side];
+  };
+  const std::vector<std::int32_t>& on = laying->on_delivered_vertex();
+  for (std::int64_t v = 0; v < t.vertices; ++v)
+    put(static_cast<std::uint32_t>(v), expected.side_at[on[number[v]]]);
+  std::vector<std::int64_t> cell(delivered->count());  // of each that was delivered the expected one
   for (std::int64_t c = 0; c < expected.cells.count(); ++c)
-    face[delivered->cell_of[laying->delivered_side(expected.cells.first[c])]] = expected.face_of_cell[c];
-  for (std::int64_t c = 0; c < delivered->count(); ++c)
-    result.triangle_face.insert(result.triangle_face.end(), static_cast<std::size_t>(delivered->size(c) - 2),
-                                face[c]);
+    cell[delivered->cell_of[laying->delivered_side(expected.cells.first[c])]] = c;
+  // A vertex is said to lie on a face whose triangles have it: normals may be those of one side of a sharp edge.
+  std::size_t next = 0;
+  for (const std::int64_t c : cell)
+    for (std::int64_t k = 2; k < expected.cells.size(c); ++k) {
+      result.triangle_face.push_back(expected.face_of_cell[c]);
+      for (const std::uint32_t v : t.triangles[next++])
+        for (std::int64_t s = expected.cells.first[c]; s < expected.cells.first[c + 1]; ++s)
+          if (expected.cells.from(s) == on[number[v]]) put(v, s);
+    }
   return result;
 }
 

@@ -30,7 +30,7 @@ struct Matching {
   bool welded = false;      // vertices at equal coordinates were taken for one
   bool reversed = false;    // the triangles are clockwise seen from outside
   /// How many ways there are to lay the triangles on the mesh that were compared, at most 8 for each connected part
-  /// and 1 if nothing else fits. Of several the one is taken whose median distance from the control mesh is least.
+  /// and 1 if nothing else fits. Of several the one is taken whose median distance from the limit surface is least.
   std::int64_t ways = 1;
 };
 

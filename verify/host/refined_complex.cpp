@@ -2,7 +2,7 @@
 #include "verify/host/refined_complex.h"
 
 #include <algorithm>
-#include <functional>
+#include <initializer_list>
 #include <numeric>
 #include <unordered_map>
 
@@ -22,11 +22,6 @@ Vector mix(const Vector& a, const Vector& b, double t) {
 }
 
 }  // namespace
-
-void Cells::add(std::initializer_list<std::int32_t> cell) {
-  corners.insert(corners.end(), cell);
-  first.push_back(static_cast<std::int64_t>(corners.size()));
-}
 
 bool Cells::connect(std::int64_t vertices) {
   const auto sides = static_cast<std::int64_t>(corners.size());
@@ -92,7 +87,7 @@ Cells Cells::reversed() const {
 }
 
 RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int steps_down)
-    : depth(steps_down) {
+    : depth(steps_down), mesh_(mesh), scheme_(scheme) {
   std::unordered_map<std::uint64_t, std::int32_t> edges;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (std::size_t k = 0; k < mesh.faces[f].size(); ++k)
@@ -128,7 +123,7 @@ RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme schem
       const Vector before = corner_position(domain.previous(p.part));
       return mix(mix(own, mix(own, after, .5), u), mix(mix(own, before, .5), middle, u), v);
     };
-    const auto vertex = [&](FaceDomain::Point p) {
+    const auto add = [&](FaceDomain::Point p) {  // the next corner of a cell
       p = domain.canonical(p, steps);
       std::int64_t id = 0;
       if (const auto at = domain.side_of(p, steps)) {
@@ -139,39 +134,57 @@ RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme schem
       } else {
         id = inner + domain.inner_number(p, steps);
       }
-      if (id >= static_cast<std::int64_t>(place.size())) {
-        place.resize(id + 1, {-1, 0, 0, 1});
-        corner.resize(id + 1);
+      if (id >= std::ssize(side_at)) {
+        side_at.resize(id + 1, -1);
         about.resize(id + 1);
       }
-      if (place[id].face < 0) {
-        place[id] = {static_cast<std::int32_t>(f), static_cast<std::uint32_t>(p.i),
-                     static_cast<std::uint32_t>(p.j), static_cast<std::uint32_t>(most)};
-        corner[id] = p.part;
+      if (side_at[id] < 0) {
+        side_at[id] = std::ssize(place);
         about[id] = about_of(p);
+        ++vertices;
       }
-      return static_cast<std::int32_t>(id);
+      place.push_back({static_cast<std::int32_t>(f), static_cast<std::uint32_t>(p.i),
+                       static_cast<std::uint32_t>(p.j), static_cast<std::uint32_t>(most)});
+      corner.push_back(p.part);
+      cells.corners.push_back(static_cast<std::int32_t>(id));
+    };
+    const auto cell = [&](std::initializer_list<FaceDomain::Point> points) {
+      for (const FaceDomain::Point& p : points) add(p);
+      cells.first.push_back(std::ssize(cells.corners));
     };
     if (whole) {
-      for (int k = 0; k < size; ++k) cells.corners.push_back(vertex(domain.corner_point(k, steps)));
-      cells.first.push_back(static_cast<std::int64_t>(cells.corners.size()));
+      for (int k = 0; k < size; ++k) add(domain.corner_point(k, steps));
+      cells.first.push_back(std::ssize(cells.corners));
     } else if (scheme == data::Scheme::kLoop) {
       for (std::int64_t j = 0; j < n; ++j)
         for (std::int64_t i = 0; i + j < n; ++i) {
-          cells.add({vertex({i, j}), vertex({i + 1, j}), vertex({i, j + 1})});
-          if (i + j + 1 < n) cells.add({vertex({i + 1, j}), vertex({i + 1, j + 1}), vertex({i, j + 1})});
+          cell({{i, j}, {i + 1, j}, {i, j + 1}});
+          if (i + j + 1 < n) cell({{i + 1, j}, {i + 1, j + 1}, {i, j + 1}});
         }
     } else {
       for (std::int32_t part = 0; part < domain.parts(); ++part)
         for (std::int64_t j = 0; j < most; ++j)
           for (std::int64_t i = 0; i < most; ++i)
-            cells.add({vertex({i, j, part}), vertex({i + 1, j, part}), vertex({i + 1, j + 1, part}),
-                       vertex({i, j + 1, part})});
+            cell({{i, j, part}, {i + 1, j, part}, {i + 1, j + 1, part}, {i, j + 1, part}});
     }
     face_of_cell.resize(static_cast<std::size_t>(cells.count()), static_cast<std::int32_t>(f));
     if (!whole) inner += domain.inner_count(steps);
   }
-  cells.connect(static_cast<std::int64_t>(place.size()));
+  cells.connect(std::ssize(side_at));
+}
+
+Vector RefinedComplex::on_surface(std::int32_t vertex) const {
+  const auto [known, is_new] = known_.try_emplace(vertex);
+  if (is_new) {
+    if (!surface_) surface_.emplace(mesh_, scheme_);
+    const std::int64_t side = side_at[vertex];
+    const lc_provenance& p = place[side];
+    const auto n = static_cast<double>(p.denominator);
+    const auto at =
+        surface_->evaluate(p.face, corner[side], p.i / n, p.j / n, reference::Derivatives::kPosition);
+    known->second = {at.position.x, at.position.y, at.position.z};
+  }
+  return known->second;
 }
 
 }  // namespace limitcheck::verify

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "data/control_mesh.h"
 #include "data/scheme.h"
+#include "reference/surface/surface.h"
 #include "verify/subject/subject.h"
 
 namespace limitcheck::verify {
@@ -30,25 +32,35 @@ struct Cells {
   }
   std::int32_t from(std::int64_t side) const { return corners[side]; }
   std::int32_t to(std::int64_t side) const { return corners[next(side)]; }
-  void add(std::initializer_list<std::int32_t> cell);
   /// Finds the neighbours. False if a side has three cells or two that run the same way along it.
   bool connect(std::int64_t vertices);
   /// All cells the other way round; connect() has been called.
   Cells reversed() const;
 };
 
-/// The control mesh refined `depth` times, without positions that mean anything: `about` is where the control mesh is there.
+/// The control mesh refined `depth` times; `about` is where the control mesh is at each vertex. One thread may use it.
 struct RefinedComplex {
   ///   mesh    valid for the scheme
   ///   depth   0 or more
   RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int depth);
 
+  /// Where the limit surface is at a vertex.
+  std::array<double, 3> on_surface(std::int32_t vertex) const;
+
   const int depth;
   Cells cells;
   std::vector<std::int32_t> face_of_cell;
-  std::vector<lc_provenance> place;
-  std::vector<std::int32_t> corner;
+  std::int64_t vertices = 0;          // that a cell has
+  std::vector<lc_provenance> place;   // of each side where it begins, on the face of its cell
+  std::vector<std::int32_t> corner;   // of each side, to that place
+  std::vector<std::int64_t> side_at;  // of each vertex one that begins there, or -1
   std::vector<std::array<double, 3>> about;
+
+ private:
+  const data::ControlMesh mesh_;
+  const data::Scheme scheme_;
+  mutable std::optional<reference::Surface> surface_;  // made when it is first asked
+  mutable std::unordered_map<std::int32_t, std::array<double, 3>> known_;
 };
 
 }  // namespace limitcheck::verify

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -32,29 +33,54 @@ std::string to_json(const KillTable& table) {
                               {"killed_by_check", k.by_its_check()},
                               {"killed_by", k.killed_by},
                               {"case", k.on.empty() ? Json(nullptr) : Json(k.on)}});
+  for (std::size_t n = 0; n < table.kills.size(); ++n)
+    if (const Kill& k = table.kills[n]; k.bare_cases >= 0)
+      out["mutants"][n]["without_provenance"] = {
+          {"cases", k.bare_cases},
+          {"killed_by_check", k.bare_killed_by.contains(k.mutant->check)},
+          {"killed_by", k.bare_killed_by}};
   out["idle_checks"] = table.idle;
   out["red_on_correct_subjects"] = table.red_on_correct;
   return dumped(out, 1);
 }
 
+// What becomes of a mutant that does not say where its points lie.
+std::string without_provenance(const Kill& k) {
+  if (k.bare_killed_by.contains(k.mutant->check)) return "killed";
+  if (!k.bare_killed_by.empty()) return *k.bare_killed_by.begin();
+  return k.bare_cases > 0 ? "NOT SEEN" : "-";
+}
+
 std::string to_table(const KillTable& table) {
-  std::string out = fmt::format("{:<26} {:<5} {:<26} {:<8} {:<28} {}\n", "mutant", "claim", "meant for",
-                                "verdict", "on", "also killed by");
+  const bool bare = std::ranges::any_of(table.kills, [](const Kill& k) { return k.bare_cases >= 0; });
+  const auto column = [bare](const std::string& text) { return bare ? fmt::format("{:<26} ", text) : ""; };
+  std::string out = fmt::format("{:<26} {:<5} {:<26} {:<8} {}{:<28} {}\n", "mutant", "claim", "meant for",
+                                "verdict", column("without provenance"), "on", "also killed by");
   for (const Kill& k : table.kills) {
     auto others = k.killed_by;
     others.erase(k.mutant->check);
-    out += fmt::format("{:<26} {:<5} {:<26} {:<8} {:<28} {}\n", k.mutant->name,
+    out += fmt::format("{:<26} {:<5} {:<26} {:<8} {}{:<28} {}\n", k.mutant->name,
                        k.mutant->claim.empty() ? "-" : k.mutant->claim, k.mutant->check,
                        k.by_its_check()      ? "killed"
                        : k.killed_by.empty() ? "SURVIVED"
                                              : "ASTRAY",
-                       k.on.empty() ? "-" : k.on, fmt::join(others, ", "));
+                       column(without_provenance(k)), k.on.empty() ? "-" : k.on, fmt::join(others, ", "));
   }
   const auto killed =
       std::count_if(table.kills.begin(), table.kills.end(), [](const Kill& k) { return k.by_its_check(); });
   out += fmt::format("\n{} mutants, {} killed by the check meant for them; {} checks kill nothing{}\n",
                      table.kills.size(), killed, table.idle.size(),
                      table.idle.empty() ? "" : fmt::format(": {}", fmt::join(table.idle, ", ")));
+  if (bare) {
+    std::map<std::string, int> count;
+    for (const Kill& k : table.kills) ++count[without_provenance(k)];
+    const int killed_bare = count["killed"], unseen = count["NOT SEEN"], unasked = count["-"];
+    out += fmt::format(
+        "Without provenance {} are killed by the check meant for them, {} by another (named), {} are not "
+        "seen; {} "
+        "need unequal depths\n",
+        killed_bare, static_cast<int>(table.kills.size()) - killed_bare - unseen - unasked, unseen, unasked);
+  }
   for (const std::string& red : table.red_on_correct) out += fmt::format("RED ON A RIGHT SUBJECT: {}\n", red);
   return out;
 }
@@ -78,11 +104,18 @@ int report_mutants(const verify::PartReport& done, const std::string& json) {
 }
 
 void add_mutants(CLI::App& app, int& exit_code) {
-  auto a = std::make_shared<ShardArguments>();
+  struct Arguments : ShardArguments {
+    bool without_provenance = false;
+  };
+  auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("mutants", "Let the audit loose on faulty tessellators: what each check catches");
   add_json_option(*command, *a);
   add_shard_options(*command, *a, "mutants, and of the meshes for right subjects");
+  command->add_flag(
+      "--without-provenance", a->without_provenance,
+      "Audit each mutant a second time as a tessellator that does not say where its points lie, and "
+      "show both side by side");
   command->footer(
       "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and correct "
       "subjects have no finding (of a shard: it is done, and limitcheck merge will say); 1 otherwise; 130 "
@@ -96,7 +129,7 @@ void add_mutants(CLI::App& app, int& exit_code) {
           },
           [] { return verify::interrupted() != 0; });
     };
-    exit_code = run_units(*a, verify::mutants_plan(LIMITCHECK_VERSION), work,
+    exit_code = run_units(*a, verify::mutants_plan(LIMITCHECK_VERSION, a->without_provenance), work,
                           [&](const verify::PartReport& done) { return report_mutants(done, a->json); });
   });
 }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "data/validate.h"
 #include "verify/host/host_memory.h"
 #include "verify/host/matching.h"
 #include "verify/host/refined_complex.h"
@@ -204,6 +205,12 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   if (capabilities_.no_provenance != 0)
     find_places = [&](const Bare& t) {
       const int depth = face_depth.empty() ? 0 : face_depth.front();
+      // A mesh that is no manifold was taken as it is: nothing can be laid on it.
+      if (!expected_ && !data::validate(mesh_, lent_.scheme).empty())
+        return Matching{
+            .provenance = std::vector<lc_provenance>(static_cast<std::size_t>(t.vertices), {-1, 0, 0, 1}),
+            .corner = std::vector<std::int32_t>(static_cast<std::size_t>(t.vertices)),
+            .triangle_face = std::vector<std::int32_t>(t.triangles.size(), -1)};
       if (!expected_ || expected_->depth != depth)
         expected_ = std::make_shared<RefinedComplex>(mesh_, lent_.scheme, depth);
       return match(*expected_, t);

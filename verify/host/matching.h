@@ -23,9 +23,9 @@ struct Bare {
 
 /// For each vertex and triangle what lc_tessellation has of it.
 struct Matching {
-  std::vector<lc_provenance> provenance;
-  std::vector<std::int32_t> corner, triangle_face;
-  std::string failure;      // why there is none; all else is empty
+  std::vector<lc_provenance> provenance{};
+  std::vector<std::int32_t> corner{}, triangle_face{};
+  std::string failure{};    // why there is none; all else is empty
   bool not_judged = false;  // it cannot be told whether there is one
   bool welded = false;      // vertices at equal coordinates were taken for one
   bool reversed = false;    // the triangles are clockwise seen from outside

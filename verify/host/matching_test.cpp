@@ -13,6 +13,7 @@
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 #include "verify/host/host.h"
+#include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -235,6 +236,23 @@ TEST(Matching, ASubjectWithoutProvenanceHasPlaces) {
   std::vector<std::int32_t> depths(mesh.faces.size(), 1);
   depths[0] = 2;
   EXPECT_THROW(bare.tessellate(depths), SubjectError);
+}
+
+// A subject that takes a mesh which is none, to see whether it refuses it: nothing is laid on that.
+TEST(Matching, IsNotTriedOnAMeshThatIsNoManifold) {
+  data::ControlMesh mesh = data::named_mesh("icosahedron");
+  mesh.faces.push_back({0, 1, 40});
+  mesh.faces.push_back({0, 0, 1});
+  static lc_subject takes_all = *lc_subject_bare();
+  takes_all.create = [](const lc_mesh*, const char* options, void** instance, const char** message) {
+    static LentMesh other(data::named_mesh("icosahedron"), kLoop);
+    return lc_subject_bare()->create(&other.lend(), options, instance, message);
+  };
+  Session session(takes_all, mesh, "bare=naive", Session::Input::kAsItIs, kLoop);
+  const Tessellation t = session.tessellate(1);
+  ASSERT_GT(t.vertex_count(), 0);
+  EXPECT_FALSE(t.provenance_ok(0));
+  EXPECT_FALSE(t.triangle_ok(0));
 }
 
 }  // namespace

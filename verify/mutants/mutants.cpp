@@ -49,9 +49,12 @@ data::Scheme scheme_of(const std::string& subject) {
   return subject == kQuadBase ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
 }
 
+bool is_uniform(const AuditMesh& m) {
+  return m.depths.empty() || m.depths == "uniform";
+}
 std::string label(const AuditMesh& m) {
-  return m.depths.empty() || m.depths == "uniform" ? fmt::format("{} (depth {})", m.name, m.depth)
-                                                   : fmt::format("{} ({})", m.name, m.depths);
+  return is_uniform(m) ? fmt::format("{} (depth {})", m.name, m.depth)
+                       : fmt::format("{} ({})", m.name, m.depths);
 }
 
 }  // namespace
@@ -93,9 +96,10 @@ bool KillTable::held() const {
          std::all_of(kills.begin(), kills.end(), [](const Kill& k) { return k.by_its_check(); });
 }
 
-Plan mutants_plan(const std::string& version) {
+Plan mutants_plan(const std::string& version, bool without_provenance) {
   const std::size_t cases = default_plan(Level::kStandard).size();
   nlohmann::json what{{"version", version}, {"cases", cases}};
+  if (without_provenance) what["without_provenance"] = true;
   for (const Mutant& m : mutants()) what["mutants"].push_back(m.name);
   return {"limitcheck mutants", std::move(what), cases + mutants().size()};
 }
@@ -144,15 +148,23 @@ void run_mutants(Journal& journal,
 
   // Mutants are audited in the cheap cases first, each until its own check has found it; case by case, so
   // that they share the reference.
+  constexpr int kMoreCases = 20;
+  const bool bare = journal.plan().what.value("without_provenance", false);
   struct Open {
     std::size_t unit;
     Kill kill;
+    int more = kMoreCases;
+    bool closed = false;
   };
   std::vector<Open> open;
   for (std::size_t k = 0; k < mutants().size(); ++k)
-    if (to_do(cases + k)) open.push_back({cases + k, {&mutants()[k], {}, ""}});
-  const auto close = [&](const Open& at) {
-    keep(at.unit, {{"mutant", at.kill.mutant->name}, {"killed_by", at.kill.killed_by}, {"on", at.kill.on}});
+    if (to_do(cases + k)) open.push_back({cases + k, {&mutants()[k], {}, "", {}, bare ? 0 : -1}});
+  const auto close = [&](Open& at) {
+    const Kill& k = at.kill;
+    nlohmann::json result{{"mutant", k.mutant->name}, {"killed_by", k.killed_by}, {"on", k.on}};
+    if (bare) result["bare"] = {{"killed_by", k.bare_killed_by}, {"cases", k.bare_cases}};
+    keep(at.unit, std::move(result));
+    at.closed = true;
   };
   std::stable_sort(plan.begin(), plan.end(),
                    [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
@@ -161,7 +173,7 @@ void run_mutants(Journal& journal,
     for (Open& at : open) {
       Kill& k = at.kill;
       const bool relation = is_relation(k.mutant->check);
-      if (k.by_its_check() || (relation && !relations) || m.scheme() != k.mutant->scheme) continue;
+      if (at.closed || (relation && !relations) || m.scheme() != k.mutant->scheme) continue;
       if (k.mutant->sharp == m.mesh.sharpness.empty()) continue;
       if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
       if (k.mutant->shows && !k.mutant->shows(m.mesh, m.depth)) continue;
@@ -169,15 +181,27 @@ void run_mutants(Journal& journal,
       step(k.mutant->name, m);
       m.relations = relation;
       m.asked_again = false;
-      for (const Result& r : auditor.run({find_subject(k.mutant->subject), k.mutant->options}, m))
-        if (is_bad(r)) k.killed_by.insert(r.check);
-      if (!k.by_its_check()) continue;
-      k.on = label(m);
-      close(at);
+      const auto audit = [&](const AuditSubject& subject, std::set<std::string>& killed_by) {
+        for (const Result& r : auditor.run(subject, m))
+          if (is_bad(r)) killed_by.insert(r.check);
+      };
+      if (!k.by_its_check()) {
+        audit({find_subject(k.mutant->subject), k.mutant->options}, k.killed_by);
+        if (k.by_its_check()) k.on = label(m);
+      } else {
+        --at.more;
+      }
+      if (bare && is_uniform(m) && !k.bare_killed_by.contains(k.mutant->check)) {
+        audit({find_subject("bare"), fmt::format("bare={},{}", k.mutant->subject, k.mutant->options)},
+              k.bare_killed_by);
+        ++k.bare_cases;
+      }
+      if (k.by_its_check() && (!bare || at.more == 0 || k.bare_killed_by.contains(k.mutant->check)))
+        close(at);
     }
   }
-  for (const Open& at : open)
-    if (!at.kill.by_its_check()) close(at);
+  for (Open& at : open)
+    if (!at.closed) close(at);
 }
 
 KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results) {
@@ -199,6 +223,10 @@ KillTable kill_table(const std::map<std::size_t, nlohmann::json>& results) {
                                             result.at("mutant").dump()));
     table.kills.push_back(
         {&mutant, result.at("killed_by").get<std::set<std::string>>(), result.at("on").get<std::string>()});
+    if (!result.contains("bare")) continue;
+    const nlohmann::json& bare = result.at("bare");
+    table.kills.back().bare_killed_by = bare.at("killed_by").get<std::set<std::string>>();
+    table.kills.back().bare_cases = bare.at("cases").get<int>();
   }
   std::set<std::string> rows{"tessellates", "refined-positions", "recognised"}, useful;
   for (const Check& c : checks()) rows.insert(c.rows.begin(), c.rows.end());

@@ -33,6 +33,10 @@ struct Kill {
   const Mutant* mutant;
   std::set<std::string> killed_by;  // rows that were red, up to the case in which its check was
   std::string on;                   // that case: "octahedron (depth 1)"
+  /// The same of the mutant stripped of its provenance, if that was asked for; -1 cases: it was not. It is asked in the
+  /// cases of one depth for all faces up to the one in which its check finds it with provenance, and in 20 more.
+  std::set<std::string> bare_killed_by = {};
+  int bare_cases = -1;
   bool by_its_check() const { return killed_by.contains(mutant->check); }
 };
 
@@ -46,8 +50,9 @@ struct KillTable {
 /// All there is to audit. Right subjects in each case of the default plan (audit/default_plan.h) are a unit,
 /// the first ones; then each mutant is one: it is audited in its cases, the cheap ones first, until the check
 /// meant for it is red.
-///   version   of the program
-Plan mutants_plan(const std::string& version);
+///   version             of the program
+///   without_provenance  mutants are audited a second time as a tessellator that does not say where its points lie
+Plan mutants_plan(const std::string& version, bool without_provenance = false);
 
 /// Audits the units of the journal's shard that it does not know yet.
 ///   on_step  called with what is being done, how much is done, of how much

@@ -18,6 +18,7 @@
 #include "verify/evidence/cells.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"
+#include "verify/host/matching.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/recognise/recognise.h"
 #include "verify/relations/relation_row.h"
@@ -73,6 +74,19 @@ std::string prepare(ReferenceSurface& truth, std::span<const Lattice::Id> points
     return fmt::format("the reference failed: {}", error.what());
   }
   return {};
+}
+
+// How the places of a subject without provenance were found.
+std::string of_places(const Tessellation& t) {
+  const Matching* found = t.matching();
+  if (found == nullptr) return {};
+  std::string text = "places found by how the triangles are connected";
+  if (found->welded) text += ", points at equal coordinates taken for one";
+  if (found->ways > 1)
+    text += fmt::format(
+        "; they can be laid on the mesh in {}{} ways, and the one nearest to the surface was chosen",
+        found->ways, found->ways == kMostWays ? " and more" : "");
+  return text;
 }
 
 // The subject is done, and may still break down while it cleans up.
@@ -275,7 +289,7 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     session.emplace(*audited.subject, mesh.mesh, audited.options, Session::Input::kValid, mesh.scheme());
     warm_up(*session, mesh, depth_of(mesh), threads_);
     tessellation.emplace(session->tessellate(asked, threads_));
-    rows.add("tessellates", Status::kHeld, "");
+    rows.add("tessellates", Status::kHeld, of_places(*tessellation));
     results.back().of = 1;
     results.back().seconds = clock.seconds();
   } catch (const std::bad_alloc&) {

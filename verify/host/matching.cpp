@@ -21,7 +21,6 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-constexpr std::size_t kMostWays = 8;
 constexpr unsigned kNear =
     64;  // candidates that begin nearest to where one is expected, and as many that end so
 constexpr std::size_t kSample = 63;             // vertices of a part at which ways are compared
@@ -282,7 +281,7 @@ double lay_all(const RefinedComplex& expected, const Cells& delivered,
     const std::int32_t a = expected.cells.from(on), b = expected.cells.to(on);
     std::int64_t best = -1, steps = 0;
     double least = kNowhere;
-    std::size_t fitting = 0;
+    std::int64_t fitting = 0;
     const auto try_out = [&](const std::vector<std::int64_t>& sides) {
       std::vector<std::pair<std::pair<double, double>, std::int64_t>> candidates;
       for (const std::int64_t to : sides) {
@@ -310,7 +309,7 @@ double lay_all(const RefinedComplex& expected, const Cells& delivered,
     if (best < 0) return kNowhere;
     laying.lay(on, best);
     sum += least;
-    ways = std::max(ways, static_cast<std::int64_t>(fitting));
+    ways = std::max(ways, fitting);
   }
   return std::min(sum, std::numeric_limits<double>::max());
 }

@@ -21,6 +21,9 @@ struct Bare {
   std::function<std::array<double, 3>(std::int64_t)> position;
 };
 
+/// Ways to lay a connected part that are compared.
+inline constexpr std::int64_t kMostWays = 8;
+
 /// For each vertex and triangle what lc_tessellation has of it.
 struct Matching {
   std::vector<lc_provenance> provenance{};
@@ -29,7 +32,7 @@ struct Matching {
   bool not_judged = false;  // it cannot be told whether there is one
   bool welded = false;      // vertices at equal coordinates were taken for one
   bool reversed = false;    // the triangles are clockwise seen from outside
-  /// How many ways there are to lay the triangles on the mesh that were compared, at most 8 for each connected part
+  /// How many ways there are to lay the triangles on the mesh that were compared, at most kMostWays for each connected part
   /// and 1 if nothing else fits. Of several the one is taken whose median distance from the limit surface is least.
   std::int64_t ways = 1;
 };

@@ -45,8 +45,8 @@ bool is_model(const std::string& subject, const std::string& options) {
 }
 
 // All right subjects but the quad model are audited by Loop's scheme.
-data::Scheme scheme_of(const std::string& subject) {
-  return subject == kQuadBase ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
+data::Scheme scheme_of(const AuditSubject& s) {
+  return s.label().ends_with(kQuadBase) ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
 }
 
 bool is_uniform(const AuditMesh& m) {
@@ -124,11 +124,15 @@ void run_mutants(Journal& journal,
   };
 
   // Right subjects are audited in all cases of the plan.
-  const std::vector<AuditSubject> correct{{find_subject(kBase), ""},
-                                          {find_subject(kQuadBase), ""},
-                                          {find_subject("row-stream"), "repair=stitch"},
-                                          {find_subject("row-stream"), "frames=4"},
-                                          {find_subject("sliding-window"), "precision=double,repair=stitch"}};
+  const bool bare = journal.plan().what.value("without_provenance", false);
+  std::vector<AuditSubject> correct{{find_subject(kBase), ""},
+                                    {find_subject(kQuadBase), ""},
+                                    {find_subject("row-stream"), "repair=stitch"},
+                                    {find_subject("row-stream"), "frames=4"},
+                                    {find_subject("sliding-window"), "precision=double,repair=stitch"}};
+  if (bare)
+    for (const char* subject : {"row-stream", kQuadBase})
+      correct.push_back({find_subject("bare"), fmt::format("bare={}", subject)});
   Auditor auditor(0, kThreads, {}, Level::kStandard);
   for (std::size_t unit = 0; unit < cases; ++unit) {
     if (!to_do(unit)) continue;
@@ -137,8 +141,7 @@ void run_mutants(Journal& journal,
     for (const AuditSubject& s : correct) {
       if (stop && stop()) return;
       step(s.subject->name, m);
-      if (m.scheme() != scheme_of(s.subject->name) || (is_model(s.subject->name, s.options) && too_much(m)))
-        continue;
+      if (m.scheme() != scheme_of(s) || (is_model(s.subject->name, s.options) && too_much(m))) continue;
       for (const Result& r : auditor.run(s, m))
         if (is_bad(r))
           red.push_back(fmt::format("{} / {} / {}: {}", r.subject, label(m), r.check, r.message));
@@ -149,7 +152,6 @@ void run_mutants(Journal& journal,
   // Mutants are audited in the cheap cases first, each until its own check has found it; case by case, so
   // that they share the reference.
   constexpr int kMoreCases = 20;
-  const bool bare = journal.plan().what.value("without_provenance", false);
   struct Open {
     std::size_t unit;
     Kill kill;

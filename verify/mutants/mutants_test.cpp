@@ -9,12 +9,14 @@
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
+#include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
 #include "verify/host/isolation/remote_subject.h"
@@ -52,11 +54,11 @@ TEST(Mutants, AreAtLeastAHundredAndSixtyEachWithAnotherNameAndACheckMeantForIt) 
 }
 
 TEST(Mutants, AreAllKilledByTheCheckMeantForThemAndNoCheckIsIdle) {
-  Journal journal(mutants_plan(""));
+  Journal journal(mutants_plan("", true));
   run_mutants(journal);
   const KillTable table = kill_table(journal.results());
   // A shard, of mutants and of meshes for right subjects, says the same of its units.
-  Plan plan = mutants_plan("");
+  Plan plan = mutants_plan("", true);
   plan.shard = {5, 89};
   Journal shard(plan);
   run_mutants(shard);
@@ -69,6 +71,17 @@ TEST(Mutants, AreAllKilledByTheCheckMeantForThemAndNoCheckIsIdle) {
   EXPECT_EQ(fmt::format("{}", fmt::join(table.idle, ", ")), "")
       << "a check without a mutant it kills is none";
   EXPECT_EQ(fmt::format("{}", fmt::join(table.red_on_correct, "\n")), "");
+
+  int killed = 0, by_others = 0, unseen = 0;
+  for (const Kill& k : table.kills)
+    ++(k.bare_killed_by.contains(k.mutant->check) ? killed : k.bare_killed_by.empty() ? unseen : by_others);
+  const std::string page =
+      std::regex_replace(contents_of(LIMITCHECK_SOURCE_DIR "/verify/METHOD.md"), std::regex("\n *"), " ");
+  const std::string words = fmt::format(
+      "Of {} mutants {} are still killed by the check meant for them, {} by another check, and {} are not "
+      "seen",
+      table.kills.size(), killed, by_others, unseen);
+  EXPECT_TRUE(says(page, words)) << words;
 }
 
 std::string options_of(const std::string& habit) {

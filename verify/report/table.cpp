@@ -194,16 +194,17 @@ std::string matrix(const Report& report, bool colour) {
   return out;
 }
 
-// Why meshes were not tessellated at all though nothing is wrong: each reason once.
+// Why meshes were not tessellated at all though nothing is wrong, and how places were found: each sentence once.
 std::string reasons(const Report& report, const std::string& subject) {
-  std::map<std::string, std::vector<std::string>> meshes;
+  std::map<std::pair<Status, std::string>, std::vector<std::string>> meshes;
   for (const Result& r : report.results)
-    if (r.subject == subject && r.check == "tessellates" && r.status == Status::kNotSupported)
-      meshes[r.message].push_back(case_name(report, r));
+    if (r.subject == subject && r.check == "tessellates" && !r.message.empty() &&
+        (r.status == Status::kNotSupported || r.status == Status::kHeld))
+      meshes[{r.status, r.message}].push_back(case_name(report, r));
   std::string out;
-  for (const auto& [reason, names] : meshes)
-    out += fmt::format("  not supported: {}{}: {}\n", names.front(),
-                       names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "", reason);
+  for (const auto& [said, names] : meshes)
+    out += fmt::format("  {}{}{}: {}\n", said.first == Status::kHeld ? "" : "not supported: ", names.front(),
+                       names.size() > 1 ? fmt::format(" and {} more", names.size() - 1) : "", said.second);
   return out;
 }
 

@@ -17,16 +17,11 @@ static Vec add(Vec a, double w, Vec b) {
 
 Mesh mesh_allocate(int64_t vertices, int64_t triangles) {
   const size_t v = (size_t)vertices + 1, h = 3 * (size_t)triangles + 1;
-  return (Mesh){(int32_t)vertices,
-                (int32_t)(3 * triangles),
-                calloc(v, sizeof(Vec)),
-                calloc(v, sizeof(int32_t)),
-                calloc(h, sizeof(int32_t)),
-                calloc(h, sizeof(int32_t)),
-                calloc(h, 2 * sizeof(uint32_t))};
+  return (Mesh){(int32_t)vertices,          (int32_t)(3 * triangles),   calloc(v, sizeof(Vec)),
+                calloc(v, sizeof(int32_t)), calloc(h, sizeof(int32_t)), calloc(h, sizeof(int32_t))};
 }
 void mesh_free(Mesh m) {
-  free(m.p), free(m.out), free(m.from), free(m.twin), free(m.at);
+  free(m.p), free(m.out), free(m.from), free(m.twin);
 }
 
 /* The neighbours of the vertex that h leaves: how many, and the half-edge to the first, counter-clockwise. At
@@ -42,6 +37,11 @@ static int ring(const Mesh* m, int32_t h, int32_t* first, int* boundary) {
 
 const char* mesh_connect(Mesh* m) {
   const char* wrong = NULL;
+  if (m->halves == 0) return "there are no triangles";
+  for (int32_t v = 0; v < m->vertices; ++v)
+    if (!isfinite(m->p[v].x + m->p[v].y + m->p[v].z)) return "a coordinate is not finite";
+  for (int32_t h = 0; h < m->halves; ++h)
+    if (m->from[h] < 0 || m->from[h] >= m->vertices) return "a triangle names a vertex that does not exist";
   int32_t *link = malloc(((size_t)m->halves + 1) * sizeof *link),
           first; /* from one leaving a vertex to the next */
   memset(m->out, -1, (size_t)m->vertices * sizeof *m->out);
@@ -87,7 +87,7 @@ Vec mesh_moved(const Mesh* m, int32_t v, Vec* normal) {
   return add(p, boundary ? 1.0 / 6 : 8 * a / (n * (3 + 8 * a)), sum);
 }
 
-Mesh mesh_refined(const Mesh* m) {
+static Mesh refined_once(const Mesh* m) {
   Mesh fine = mesh_allocate(m->vertices + m->halves, 4 * m->halves / 3);
   int32_t* middle = malloc(((size_t)m->halves + 1) * sizeof *middle); /* of each half-edge: its edge point */
   fine.vertices = m->vertices;
@@ -105,13 +105,21 @@ Mesh mesh_refined(const Mesh* m) {
     fine.from[corner] = m->from[h];
     fine.from[corner + 1] = fine.from[inner] = middle[h];
     fine.from[corner + 2] = middle[g];
-    for (int x = 0; x < 2; ++x) {
-      fine.at[corner][x] = 2 * m->at[h][x];
-      fine.at[corner + 1][x] = fine.at[inner][x] = m->at[h][x] + m->at[next(h)][x];
-      fine.at[corner + 2][x] = m->at[g][x] + m->at[h][x];
-    }
   }
   free(middle);
   mesh_connect(&fine);
+  return fine;
+}
+
+Mesh mesh_refined(const Mesh* m, int steps) {
+  Mesh fine = mesh_allocate(m->vertices, m->halves / 3);
+  memcpy(fine.p, m->p, (size_t)m->vertices * sizeof(Vec));
+  memcpy(fine.from, m->from, (size_t)m->halves * sizeof(int32_t));
+  mesh_connect(&fine);
+  for (; steps > 0; --steps) {
+    const Mesh next_one = refined_once(&fine);
+    mesh_free(fine);
+    fine = next_one;
+  }
   return fine;
 }

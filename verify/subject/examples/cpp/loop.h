@@ -6,17 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <map>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 using Vec = std::array<double, 3>;
-struct Triangle {
-  std::array<int, 3> v;
-  int face;
-  std::array<std::array<unsigned, 2>, 3> at;  // (i, j) of each corner
-};
+using Triangle = std::array<int, 3>;
 
 inline const double kPi = std::acos(-1.0);
 
@@ -25,34 +22,44 @@ inline void add(Vec& to, double w, const Vec& p) {
 }
 
 struct Mesh {
-  std::vector<Vec> positions;
-  std::vector<Triangle> triangles;
+  std::vector<Vec> positions{};
+  std::vector<Triangle> triangles{};
   std::map<std::pair<int, int>, int> after{};  // (v, a) -> b for each triangle (v, a, b)
   std::map<int, int> start{};                  // a neighbour; the first, counter-clockwise, at a boundary
 
-  /// Finds the neighbours. Throws std::invalid_argument if the triangles are no oriented manifold.
-  void connect() {
-    if (triangles.empty()) throw std::invalid_argument("there are no triangles");
+  Mesh() = default;
+  Mesh(const double* points, std::int64_t vertex_count, const std::int32_t* corners,
+       std::int64_t triangle_count) {
+    for (std::int64_t v = 0; v < vertex_count; ++v, points += 3)
+      positions.push_back({points[0], points[1], points[2]});
+    for (std::int64_t t = 0; t < triangle_count; ++t, corners += 3)
+      triangles.push_back({corners[0], corners[1], corners[2]});
+  }
+
+  /// Finds the neighbours. Returns what is wrong with the mesh, or a null pointer.
+  const char* connect() {
+    if (triangles.empty()) return "there are no triangles";
     for (const Vec& p : positions)
       for (const double x : p)
-        if (!std::isfinite(x)) throw std::invalid_argument("a coordinate is not finite");
+        if (!std::isfinite(x)) return "a coordinate is not finite";
     for (const Triangle& t : triangles)
-      for (const int v : t.v)
+      for (const int v : t)
         if (v < 0 || v >= static_cast<int>(positions.size()))
-          throw std::invalid_argument("a triangle names a vertex that does not exist");
+          return "a triangle names a vertex that does not exist";
     std::map<int, int> faces;
     for (const Triangle& t : triangles)
-      for (std::size_t k = 0; k < 3; ++k, ++faces[t.v[k % 3]])
-        if (!after.try_emplace({t.v[k], t.v[(k + 1) % 3]}, t.v[(k + 2) % 3]).second)
-          throw std::invalid_argument("two triangles run along an edge in the same direction");
+      for (std::size_t k = 0; k < 3; ++k, ++faces[t[k % 3]])
+        if (!after.try_emplace({t[k], t[(k + 1) % 3]}, t[(k + 2) % 3]).second)
+          return "two triangles run along an edge in the same direction";
     for (const auto& [edge, next] : after)
       if (after.count({edge.second, edge.first}) == 0 || start.count(edge.first) == 0)
         start[edge.first] = edge.second;
     for (const auto& [v, count] : faces) {
       bool boundary = false;
       const int around = static_cast<int>(ring(v, boundary).size()) - boundary;
-      if (around != count) throw std::invalid_argument("the triangles at a vertex form more than one fan");
+      if (around != count) return "the triangles at a vertex form more than one fan";
     }
+    return nullptr;
   }
 
   std::vector<int> ring(int v, bool& boundary) const {
@@ -99,35 +106,30 @@ struct Mesh {
     return p;
   }
 
-  Mesh refined() const {
-    Mesh fine{{}, {}};
+  Mesh refined(int steps) const {
+    if (steps == 0) return *this;
+    Mesh fine;
     for (int v = 0; v < static_cast<int>(positions.size()); ++v) fine.positions.push_back(moved(v, nullptr));
     std::map<std::pair<int, int>, int> middle;
     for (const Triangle& old : triangles) {
       Triangle inner = old;
       for (std::size_t k = 0; k < 3; ++k) {
-        const int a = old.v[k], b = old.v[(k + 1) % 3];
+        const int a = old[k], b = old[(k + 1) % 3];
         const auto [place, is_new] =
             middle.try_emplace(std::minmax(a, b), static_cast<int>(fine.positions.size()));
-        inner.v[k] = place->second;
-        for (std::size_t x = 0; x < 2; ++x) inner.at[k][x] = old.at[k][x] + old.at[(k + 1) % 3][x];
+        inner[k] = place->second;
         if (!is_new) continue;
         const auto other = after.find({b, a});
         Vec p{};
         for (const int end : {a, b}) add(p, other == after.end() ? 1.0 / 2 : 3.0 / 8, positions[end]);
         if (other != after.end())
-          for (const int side : {old.v[(k + 2) % 3], other->second}) add(p, 1.0 / 8, positions[side]);
+          for (const int side : {old[(k + 2) % 3], other->second}) add(p, 1.0 / 8, positions[side]);
         fine.positions.push_back(p);
       }
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t last = (k + 2) % 3;
-        fine.triangles.push_back({{old.v[k], inner.v[k], inner.v[last]},
-                                  old.face,
-                                  {{{2 * old.at[k][0], 2 * old.at[k][1]}, inner.at[k], inner.at[last]}}});
-      }
+      for (std::size_t k = 0; k < 3; ++k) fine.triangles.push_back({old[k], inner[k], inner[(k + 2) % 3]});
       fine.triangles.push_back(inner);
     }
     fine.connect();
-    return fine;
+    return fine.refined(steps - 1);
   }
 };

@@ -19,7 +19,7 @@ class Capabilities(c.Structure):
     _fields_ = [(name, c.c_int32) for name in ("precision", "weights", "boundary", "points", "max_depth", "normals",
                 "per_face_depth", "exact_lattice")] + [("size", c.c_uint32), ("scheme", c.c_int32),
                                                        ("schemes", c.c_int32), ("sharp", c.c_int32),
-                                                       ("does_not_validate", c.c_int32)]
+                                                       ("does_not_validate", c.c_int32), ("no_provenance", c.c_int32)]
 
 
 class Mesh(c.Structure):
@@ -80,7 +80,7 @@ while line := sys.stdin.buffer.readline():
             "limitcheck": 1, "status": "ok", "precision": FLOAT[able.precision], "weights": ("loop", "warren")[able.weights],
             "boundary": ("spline", "none")[able.boundary], "points": LIMIT[able.points], "max_depth": able.max_depth,
             "normals": bool(able.normals), "per_face_depth": bool(able.per_face_depth), "exact_lattice": bool(able.exact_lattice),
-            "does_not_validate": bool(able.does_not_validate)})
+            "does_not_validate": bool(able.does_not_validate), "provenance": not able.no_provenance})
     elif question["request"] == "create":
         positions = bytearray(sys.stdin.buffer.read(24 * question["vertices"]))
         corners = bytearray(sys.stdin.buffer.read(12 * question["triangles"]))

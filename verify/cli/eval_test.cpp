@@ -7,7 +7,9 @@
 #include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "data/test_support/known_answers.h"
 #include "verify/cli/command_test.h"
@@ -282,6 +284,88 @@ TEST_F(EvalCommand, RefusesBadInputWithExitCodeTwo) {
                           "tetrahedron 0 abc 0", "tetrahedron 0 nan 0", "tetrahedron 0 0 0 --digits 0",
                           "tetrahedron 0 0 0 --digits 1000000000", "tetrahedron 99999999999999999999 0 0",
                           "far.obj 0 1/3 1/3 --precision float", "no-such-file.obj 0 0 0"});
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> list{""};
+  for (const char c : line)
+    if (c == ',')
+      list.emplace_back();
+    else
+      list.back() += c;
+  return list;
+}
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> list;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) list.push_back(line);
+  return list;
+}
+
+// Of each line what eval says of its point, in double and certified, as CSV and as JSON.
+TEST_F(EvalCommand, EveryLineOfAFileIsThePoint) {
+  for (const std::string mesh : {"bumpy:200", "dual:icosahedron"}) {
+    const bool loop = mesh == "bumpy:200";
+    const std::vector<std::string> points =
+        loop ? std::vector<std::string>{"17,1/4,1/2", "0, 0.1 ,0.2", "199,1/3,1/3"}
+             : std::vector<std::string>{"0:1,1/4,1/2", "1:2,0.1,0.2", "2:0,1/3,1/3"};
+    std::string file = "face,u,v\n# a comment\n";
+    for (const std::string& point : points) file += point + "\r\n";
+    write("points.csv", file);
+    const auto csv = lines(run("eval " + mesh + " --points points.csv --derivatives 2").out);
+    const auto exact =
+        lines(run("eval " + mesh + " --points points.csv --derivatives 2 --certified --json").out);
+    ASSERT_EQ(csv.size(), points.size() + 1);
+    ASSERT_EQ(exact.size(), points.size());
+    EXPECT_TRUE(csv[0].starts_with("face,u,v,x,y,z,normal_x,"));
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      std::string point = points[k];
+      std::erase(point, ' ');
+      std::replace(point.begin(), point.end(), ',', ' ');
+      const auto alone = json_of("eval " + mesh + " " + point + " --json", 0);
+      const auto certified = nlohmann::json::parse(exact[k]);
+      std::vector<std::string> expected;
+      for (const char* key : {"position", "normal", "d1", "d2", "d11", "d12", "d22"}) {
+        EXPECT_EQ(certified[key], alone[key]) << key;
+        for (const auto& x : alone[key]) expected.push_back(x.get<std::string>());
+      }
+      for (const char* key : {"gaussian_curvature", "mean_curvature"}) {
+        EXPECT_EQ(certified[key], alone[key]) << key;
+        expected.push_back(alone[key].get<std::string>());
+      }
+      const auto got = cells(csv[k + 1]);
+      ASSERT_EQ(got.size(), expected.size() + 3);
+      // Doubles: StamError bounds derivatives by 1e-12 of the diagonal; curvatures are quotients of some of them.
+      for (std::size_t c = 0; c < expected.size(); ++c)
+        EXPECT_NEAR(std::stod(got[c + 3]), std::stod(expected[c]), 1e-9) << csv[0] << ", column " << c + 3;
+    }
+  }
+}
+
+TEST_F(EvalCommand, ALineThatIsNoPointIsNamedAndTheLinesBeforeItAreWritten) {
+  const auto fails = [&](const std::string& points, const std::string& words) {
+    write("points.csv", points);
+    const Outcome o = run("eval icosahedron --points points.csv", 2);
+    EXPECT_TRUE(says(o.err, words)) << o.err;
+    return lines(o.out).size();
+  };
+  EXPECT_EQ(fails("0,0,0\n0,1,x\n0,0,0\n", "points.csv:2: POINT_UNUSABLE: 'x' is not a number"), 2U);
+  EXPECT_EQ(fails("\n\n20,0,0", "points.csv:3: POINT_UNUSABLE: icosahedron has faces 0 to 19, not 20"), 1U);
+  EXPECT_EQ(fails("0,1,1e-3\n", "points.csv:1: POINT_UNUSABLE: l1, l2 must be >= 0 and l1 + l2 <= 1"), 1U);
+  EXPECT_EQ(fails("0,0\n", "points.csv:1: POINT_UNUSABLE: a line is FACE,U,V, not '0,0'"), 1U);
+  EXPECT_EQ(fails("0,0,0,0\n", "a line is FACE,U,V"), 1U);
+  EXPECT_EQ(fails("0,0,nan\n", "points.csv:1: POINT_UNUSABLE"), 1U);
+  EXPECT_TRUE(says(run("eval icosahedron --points .", 2).err, "FILE_NOT_READABLE"));
+  EXPECT_TRUE(says(run("eval icosahedron", 2).err, "FACE U V are missing"));
+  // Many blocks: each line in its place.
+  std::string many;
+  for (int k = 0; k < 300000; ++k) many += fmt::format("{},0.25,{}\n", k % 20, k % 3 / 4.0);
+  write("points.csv", many);
+  const auto out = lines(run("eval icosahedron --points points.csv").out);
+  ASSERT_EQ(out.size(), 300001U);
+  for (int k = 0; k < 300000; k += 997)
+    EXPECT_TRUE(
+        out[static_cast<std::size_t>(k) + 1].starts_with(fmt::format("{},0.25,{},", k % 20, k % 3 / 4.0)));
 }
 
 }  // namespace

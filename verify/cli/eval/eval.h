@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// limitcheck eval: what is asked, and the ways to answer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "data/io/read.h"
+#include "reference/surface/certified.h"
+#include "verify/cli/commands.h"
+#include "verify/cli/mesh_options.h"
+
+namespace limitcheck::cli {
+
+struct EvalRequest {
+  std::string mesh, face, u, v;
+  data::ReadOptions options;
+  int digits = 16;
+  bool in_float = false;
+  reference::Weights weights = reference::Weights::kLoop;
+  bool json = false;
+  std::string subject, depths = "uniform";
+  int depth = 4;
+  std::string points;  // the file, or "-"
+  bool certified = false;
+  int derivatives = 0;
+};
+inline const Words<reference::Weights> kWeights{{"loop", reference::Weights::kLoop},
+                                                {"warren", reference::Weights::kWarren}};
+
+/// "17" or "17:2".
+struct FaceAndCorner {
+  std::int64_t face = 0;
+  std::optional<int> corner;
+};
+/// Throws data::ArgumentError.
+FaceAndCorner parse_face(const std::string& text);
+/// The face is there, and it has a corner if it needs one; else throws data::ArgumentError.
+void check_face(const EvalRequest& request, const OpenedMesh& opened, const FaceAndCorner& at);
+/// Throws data::ArgumentError: weights of the other scheme.
+reference::CertifiedEvaluator certified_evaluator(const EvalRequest& request, const OpenedMesh& opened);
+
+/// What was evaluated.
+struct EvaluatedPoint {
+  const EvalRequest& request;
+  MeshScheme chosen;
+  FaceAndCorner at;
+  std::vector<std::string> parameters;  // exact: l0, l1, l2 of Loop's scheme, u, v of Catmull-Clark's
+};
+void print_point_as_json(const EvaluatedPoint& at, const reference::CertifiedPoint& p);
+void print_point(const EvaluatedPoint& at, const reference::CertifiedPoint& p);
+
+/// What the subject delivers at the point and what it should, and how far they are apart. Returns the exit code: 1 if a
+/// vertex is beyond its bounds or not finite, or if vertices that should be equal have other bits. Throws
+/// data::ArgumentError: there is no such subject, or the point is no lattice point of the depth.
+int show_difference(const EvalRequest& request, const FaceAndCorner& at, const OpenedMesh& opened);
+
+/// Evaluates every line FACE,U,V of a file (or of standard input) and writes a line for each, in their order: CSV, or
+/// JSON with request.json. On all processors; memory does not grow with the number of lines. Throws data::InputError:
+/// the file cannot be read, or a line is no point of the mesh; lines before that one have been written.
+void evaluate_points(const EvalRequest& request, const OpenedMesh& opened);
+
+}  // namespace limitcheck::cli

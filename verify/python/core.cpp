@@ -164,32 +164,50 @@ class Mesh {
     return result;
   }
 
-  py::dict tessellate(int depth) const {
+  // Of faces of given depths, or of a view: eye, target, up, field of view, width, height, pixels, largest depth.
+  py::dict tessellate(const std::vector<std::int32_t>& depths,
+                      const std::optional<std::array<double, 14>>& view) const {
     fast::IndexedMesh<double> out;
     {
       const py::gil_scoped_release unlocked;
       fast::TessellatorOptions options;
       options.provenance = true;
       options.scheme = scheme_;
+      if (view) options.max_depth = static_cast<int>((*view)[13]);
       fast::Tessellator<double> engine(mesh_, options);
-      engine.frame(std::vector<std::int32_t>(mesh_.faces.size(), depth), out);
+      if (view) {
+        const auto& n = *view;
+        fast::DepthOptions by;
+        by.target_pixels = n[12];
+        fast::Camera camera{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}, n[9]};
+        camera.width = static_cast<int>(n[10]);
+        camera.height = static_cast<int>(n[11]);
+        engine.frame(by, camera, out);
+      } else {
+        engine.frame(depths, out);
+      }
     }
-    auto positions = rows(out.vertices.size()), normals = rows(out.vertices.size());
-    Array<std::int32_t> face(static_cast<py::ssize_t>(out.vertices.size()));
-    for (std::size_t v = 0; v < out.vertices.size(); ++v) {
-      const auto& vertex = out.vertices[v];
+    const std::size_t count = out.vertices.size();
+    auto positions = rows(count), normals = rows(count);
+    Array<double> uv({static_cast<py::ssize_t>(count), py::ssize_t{2}});
+    Array<std::int32_t> face(static_cast<py::ssize_t>(count)), corner(static_cast<py::ssize_t>(count));
+    for (std::size_t v = 0; v < count; ++v) {
       const auto put = [v](Array<double>& to, const auto& p) {
         double* row = to.mutable_data() + 3 * v;
         row[0] = p.x, row[1] = p.y, row[2] = p.z;
       };
-      put(positions, vertex.position);
-      put(normals, vertex.normal);
-      face.mutable_data()[v] = out.provenance[v].face;
+      put(positions, out.vertices[v].position);
+      put(normals, out.vertices[v].normal);
+      const fast::LatticePoint& at = out.provenance[v];
+      face.mutable_data()[v] = at.face;
+      corner.mutable_data()[v] = at.corner;
+      uv.mutable_data()[2 * v] = static_cast<double>(at.i) / at.denominator;
+      uv.mutable_data()[2 * v + 1] = static_cast<double>(at.j) / at.denominator;
     }
     Array<std::uint32_t> triangles({static_cast<py::ssize_t>(out.triangles.size()), py::ssize_t{3}});
     std::copy_n(out.triangles.data()->data(), 3 * out.triangles.size(), triangles.mutable_data());
     return py::dict("positions"_a = positions, "normals"_a = normals, "triangles"_a = triangles,
-                    "faces"_a = face);
+                    "faces"_a = face, "uv"_a = uv, "corners"_a = corner);
   }
 
  private:

@@ -50,7 +50,9 @@ class Package(unittest.TestCase):
             exact = mesh.certified(4, u, v, corner=corner, digits=30)
             for name, array in found.items():
                 self.assertEqual(array.shape, (1, 3))
-                np.testing.assert_allclose(array[0], [float(x) for x in exact[name].value], rtol=0, atol=2e-14)
+                # Positions of a mesh of size 2 are right to 1e-15, first derivatives to 1e-14 (StamError); second ones are
+                # some 4 times as large here.
+                np.testing.assert_allclose(array[0], [float(x) for x in exact[name].value], rtol=0, atol=4e-14)
             self.assertLess(exact["position"].radius, 1e-29)
 
     def test_derivatives_that_do_not_exist_are_nan(self):
@@ -69,6 +71,33 @@ class Package(unittest.TestCase):
         np.testing.assert_array_equal(again.evaluate(*at)["position"], same.evaluate(*at)["position"])
         self.assertGreater(np.abs(same.evaluate(*at)["position"] - cube.evaluate(*at)["position"]).max(), 1e-3)
 
+    def test_a_vertex_lies_where_its_provenance_says(self):
+        for mesh in (limitcheck.Mesh.generate("bumpy:20"), limitcheck.generate("dual:icosahedron")):
+            size = np.ptp(mesh.vertices, axis=0).max()
+            for t in (mesh.tessellate(2), mesh.tessellate([k % 3 for k in range(len(mesh.faces))]),
+                      mesh.tessellate(camera=((0, 0, 9), (0, 0, 0)), pixels=20)):
+                self.assertGreater(len(t.triangles), 0)
+                self.assertLess(t.triangles.max(), len(t.positions))
+                at = mesh.evaluate(t.faces, t.uv, corners=t.corners, derivatives=1)
+                on_lattice = np.abs(t.uv * 2**5 % 1) < 1e-12  # not the centres of fans, at thirds
+                rows = on_lattice.all(axis=1)
+                # The window's sums err by 1e-14 of the diagonal (verify/row/bounds.h).
+                np.testing.assert_allclose(t.positions[rows], at["position"][rows], rtol=0, atol=2e-14 * size)
+        near, far = (len(mesh.tessellate(camera=(0, 0, z)).triangles) for z in (3, 30))
+        self.assertGreater(near, far)
+
+    def test_a_hunt_finds_what_is_wrong_and_nothing_else(self):
+        self.assertEqual(limitcheck.hunt(right, cases=12)["findings"], [])
+        self.assertIn("positions", {f["check"] for f in limitcheck.hunt(wrong, cases=12, arguments=["--attempts", "5"])["findings"]})
+
+    def test_matrices_of_any_kind_are_the_mesh(self):
+        """As libigl has them: column by column, in other types."""
+        cube = limitcheck.generate("octahedron")
+        expected = cube.evaluate([3], [(.25, .5)])["position"]
+        for real, whole in ((np.float64, np.int64), (np.float32, np.int32), (np.float64, np.uint16)):
+            mesh = limitcheck.Mesh(np.asfortranarray(cube.vertices.astype(real)), np.asfortranarray(np.array(cube.faces, whole)))
+            np.testing.assert_array_equal(mesh.evaluate(np.array([3], whole), np.asfortranarray([(.25, .5)]))["position"], expected)
+
     def test_errors_are_sentences(self):
         with self.assertRaisesRegex(limitcheck.Error, "MESH_INDEX_OUT_OF_RANGE: face 0 names vertex 1"):
             limitcheck.Mesh([(0, 0, 0)], [(0, 1, 2)])
@@ -77,6 +106,9 @@ class Package(unittest.TestCase):
                            lambda: mesh.certified(0, "1/0", 0), lambda: limitcheck.Mesh.load("nowhere.obj"),
                            lambda: limitcheck.Mesh.generate("nothing"), lambda: limitcheck.Mesh([], []),
                            lambda: limitcheck.audit("no-such-subject", ["icosahedron"]),
+                           lambda: mesh.tessellate(), lambda: mesh.tessellate(11), lambda: mesh.tessellate(1, camera=(0, 0, 4)),
+                           lambda: mesh.tessellate(camera=(0, 0, 0)), lambda: mesh.tessellate(camera=(1, 2)),
+                           lambda: mesh.tessellate([1, 2]),
                            lambda: limitcheck.check("nowhere.obj")):
             with self.assertRaises(ValueError):
                 wrong_call()
@@ -104,6 +136,8 @@ class Package(unittest.TestCase):
         def fails(vertices, faces, depth):
             raise KeyError("nothing there")
 
+        report = limitcheck.audit(right, ["icosahedron"], depth=1, normals=True)
+        self.assertTrue(any("has to return (vertices, faces, normals)" in (row["message"] or "") for row in report.findings))
         for function, text in ((coarser, "80 triangles were delivered; the mesh has 320 at depth 2"), (fails, "KeyError")):
             report = limitcheck.audit(function, ["icosahedron"], depth=2)
             self.assertFalse(report.held)

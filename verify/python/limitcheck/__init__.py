@@ -18,9 +18,9 @@ import numpy as np
 
 from . import _core
 from ._core import Error
-from .audits import Report, audit, check, repair
+from .audits import Report, audit, check, hunt, repair
 
-__all__ = ["Certified", "Error", "Mesh", "Report", "Tessellation", "audit", "check", "repair"]
+__all__ = ["Certified", "Error", "Mesh", "Report", "Tessellation", "audit", "check", "generate", "hunt", "repair"]
 
 
 class Certified(NamedTuple):
@@ -36,7 +36,10 @@ class Tessellation(NamedTuple):
     positions: np.ndarray  # (n, 3) float64
     normals: np.ndarray  # (n, 3) float64, unit length
     triangles: np.ndarray  # (m, 3) uint32, counter-clockwise from outside
-    faces: np.ndarray  # (n) int32: a control face that each vertex lies on
+    # Where each vertex lies on the control mesh: evaluate(faces, uv, corners=corners) has it.
+    faces: np.ndarray  # (n) int32
+    uv: np.ndarray  # (n, 2) float64
+    corners: np.ndarray  # (n) int32: 0 on triangles (Loop) and quads
 
 
 class Mesh:
@@ -116,12 +119,38 @@ class Mesh:
         found = self._core.certified(face, _exact(u), _exact(v), corner, digits)
         return {name: Certified(tuple(value), radius) for name, (value, radius) in found.items()}
 
-    def tessellate(self, depth: int) -> Tessellation:
-        """Every face in 4^depth triangles (or pairs of them), points and normals of the limit surface in double."""
-        return Tessellation(**self._core.tessellate(depth))
+    def tessellate(self, depth: Union[int, Sequence[int], None] = None, *, camera: Optional[Sequence] = None,
+                   viewport: tuple[int, int] = (1024, 768), field_of_view: float = 45, pixels: float = 60,
+                   max_depth: int = 5) -> Tessellation:
+        """Points and normals of the limit surface in double, watertight.
+
+        depth          0 to 10: every face in 4^depth triangles (or pairs of them); or a depth for each face, -1 for a face that
+                       is left out
+        camera         instead: eye, or (eye, target), or (eye, target, up). Each face is as deep as its size on the screen and
+                       its curvature want (the paper's combined strategy); faces seen from behind are left out
+        viewport       width and height in pixels
+        field_of_view  vertical, degrees
+        pixels         the size of a face's part that is aimed at
+        max_depth      0 to 10
+        """
+        if (depth is None) == (camera is None):
+            raise Error("tessellate() takes either a depth or a camera")
+        if camera is None:
+            depths = np.broadcast_to(np.asarray(depth, np.int32), len(self.faces)).tolist()
+            return Tessellation(**self._core.tessellate(depths, None))
+        points = np.atleast_2d(np.asarray(camera, float))
+        if points.ndim != 2 or points.shape[1] != 3 or len(points) > 3:
+            raise Error("camera is eye, (eye, target) or (eye, target, up), points of three coordinates")
+        view = np.concatenate([points, [(0, 0, 4), (0, 0, 0), (0, 1, 0)][len(points):]]) if len(points) < 3 else points
+        return Tessellation(**self._core.tessellate(
+            [], [*view.ravel(), field_of_view, viewport[0], viewport[1], pixels, max_depth]))
 
     def __repr__(self) -> str:
         return f"<limitcheck.Mesh of {len(self.vertices)} vertices and {len(self.faces)} faces, {self.scheme}>"
+
+
+#: A mesh by name: limitcheck.generate("torus:12:6").
+generate = Mesh.generate
 
 
 def _exact(number: Any) -> str:

@@ -86,40 +86,64 @@ def audit(subject: Union[str, os.PathLike, Callable], meshes: Optional[Sequence]
     Where a vertex lies on the control mesh is found by how the faces are connected: only the function's points are judged.
     An exception in the function is a finding. Raises Error for what `limitcheck audit` refuses.
     """
-    with tempfile.TemporaryDirectory(prefix="limitcheck-") as folder:
-        names = []
-        for k, mesh in enumerate(meshes or []):
-            if hasattr(mesh, "save"):
-                names.append(os.path.join(folder, f"mesh-{k}.obj"))
-                mesh.save(names[-1])
-            else:
-                names.append(os.fspath(mesh))
-        command = [program(), "audit"]
-        served = None
+    with _Question(subject, scheme, points, normals, precision, max_depth) as ask:
+        more = [] if depth is None else ["--depth", str(depth)]
+        document, code, text = ask("audit", [*map(ask.mesh, meshes or []), *more, *arguments])
+        return Report(document, code, text)
+
+
+def hunt(subject: Union[str, os.PathLike, Callable], *, cases: int = 1000, seed: int = 1, scheme: Optional[str] = None,
+         points: str = "limit", normals: bool = False, precision: str = "float64", max_depth: int = 6,
+         arguments: Sequence[str] = ()) -> dict:
+    """Searches for anything wrong with a tessellator on random meshes; the rest is as for audit(). Returns the JSON of
+    `limitcheck hunt` as a dictionary: ["findings"] has what was found, each shrunk to few faces."""
+    with _Question(subject, scheme, points, normals, precision, max_depth) as ask:
+        return ask("hunt", ["--cases", str(cases), "--seed", str(seed), "--jobs", "1", "--witnesses",
+                            os.path.join(ask.folder, "witnesses"), *arguments])[0]
+
+
+class _Question:
+    """The program, asked about a subject: a function of this process or whatever it takes itself."""
+
+    def __init__(self, subject, scheme, points, normals, precision, max_depth):
+        self._folder = tempfile.TemporaryDirectory(prefix="limitcheck-")
+        self.folder = self._folder.name
+        self.scheme = [] if scheme is None else ["--scheme", scheme]
+        self.meshes = 0
+        self.served = None
         if callable(subject):
-            served = _Served(subject, folder, scheme or "loop", points, normals, precision, max_depth)
-            command.append(served.label)
-        else:
-            command.append(os.fspath(subject))
-        report = os.path.join(folder, "audit.json")
-        command += [*names, "--json", report, *arguments]
-        if scheme is not None:
-            command += ["--scheme", scheme]
-        if depth is not None:
-            command += ["--depth", str(depth)]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True)
-        finally:
-            if served:
-                served.close()
+            self.served = _Served(subject, self.folder, scheme or "loop", points, normals, precision, max_depth)
+        self.label = self.served.label if self.served else os.fspath(subject)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.served:
+            self.served.close()
+        self._folder.cleanup()
+
+    def mesh(self, mesh) -> str:
+        """A mesh as the command line names it."""
+        if not hasattr(mesh, "save"):
+            return os.fspath(mesh)
+        self.meshes += 1
+        name = os.path.join(self.folder, f"mesh-{self.meshes}.obj")
+        mesh.save(name)
+        return name
+
+    def __call__(self, command: str, arguments: Sequence[str]):
+        report = os.path.join(self.folder, "report.json")
+        done = subprocess.run([program(), command, self.label, *arguments, "--json", report, *self.scheme],
+                              capture_output=True, text=True)
         if done.returncode not in (0, 1) or not os.path.exists(report):
             raise Error((done.stderr or done.stdout).strip() or f"limitcheck ended with {done.returncode}")
         text, document = done.stdout, Path(report).read_text()
-        if served:  # by its name, not by the command of the relay
-            for label in (_quoted(served.label), served.label):
-                text = text.replace(label, served.name)
-                document = document.replace(json.dumps(label)[1:-1], json.dumps(served.name)[1:-1])
-        return Report(json.loads(document), done.returncode, text)
+        if self.served:  # by its name, not by the command of the relay
+            for label in (_quoted(self.label), self.label):
+                text = text.replace(label, self.served.name)
+                document = document.replace(json.dumps(label)[1:-1], json.dumps(self.served.name)[1:-1])
+        return json.loads(document), done.returncode, text
 
 
 def check(mesh) -> dict:
@@ -202,6 +226,9 @@ class _Served:
                     return
 
     def _tessellation(self, result):
+        if not isinstance(result, (tuple, list)) or len(result) < 2 + self.capabilities["normals"]:
+            raise ValueError("the function has to return (vertices, faces" +
+                             (", normals)" if self.capabilities["normals"] else ")"))
         vertices, faces, *rest = result
         vertices = np.ascontiguousarray(vertices, self.real)
         if vertices.ndim != 2 or vertices.shape[1] != 3:

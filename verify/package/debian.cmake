@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: MIT
-# `cpack` in the build folder makes two packages: limitcheck, the program, and liblimitcheck-dev, the MIT libraries for others'
-# projects. Needs dpkg-dev and file.
+# `cpack` in the build folder makes three packages: limitcheck, the program, python3-limitcheck, and liblimitcheck-dev, the MIT
+# libraries for others' projects. Needs dpkg-dev and file.
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL development)
 if(LIMITCHECK_VERIFY)
   list(PREPEND CPACK_COMPONENTS_ALL program)
+endif()
+get_property(python GLOBAL PROPERTY LIMITCHECK_PYTHON)
+if(python)
+  list(APPEND CPACK_COMPONENTS_ALL python_package)
 endif()
 # The maintainer is whoever builds the packages and answers for them: as Debian's tools have it, or as git does.
 set(contact "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
@@ -29,6 +33,14 @@ It judges every point that a tessellator delivers against an exact
 reference, looks for cracks bit by bit, and hands back each fault with a
 witness. Tessellators are built in, or shared libraries and programs of the
 user's own, or finished files.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_NAME python3-limitcheck)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_PACKAGE_DEPENDS "limitcheck, python3, python3-numpy")
+set(CPACK_COMPONENT_PYTHON_PACKAGE_DESCRIPTION "judges tessellators of subdivision surfaces, from Python
+Exact points and derivatives of the limit surface as numpy arrays, and
+audits of a Python function that subdivides a mesh.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME liblimitcheck-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

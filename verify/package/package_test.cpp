@@ -175,6 +175,15 @@ TEST_F(DebianPackage, OfTheProgramRunsAndSaysItsLicence) {
   ASSERT_TRUE(says(copyright, "Files: usr/bin/limitcheck\n"));
   EXPECT_TRUE(says(copyright.substr(copyright.find("Files: usr/bin/limitcheck\n")), "License: GPL-3+\n"));
 
+  if (fs::exists(LIMITCHECK_BINARY_DIR "/python/limitcheck/_core.pyi")) {
+    ASSERT_EQ(shell("dpkg-deb -x python3-limitcheck_*.deb python").code, 0);
+    EXPECT_TRUE(says(shell("dpkg-deb -f python3-limitcheck_*.deb Depends").out, "limitcheck, python3, python3-numpy"));
+    const Outcome o = shell(
+        "PATH=$PWD/root/usr/bin:$PATH PYTHONPATH=python/usr/lib/python3/dist-packages /usr/bin/python3 -P -c "
+        "'import limitcheck; print(limitcheck.__file__, limitcheck.audit(\"naive\", [\"octahedron\"], depth=1).held)'");
+    EXPECT_TRUE(says(o.out, "dist-packages/limitcheck/__init__.py True")) << o.err;
+  }
+
   // The libraries: for CMake, and for whoever has pkg-config alone.
   ASSERT_EQ(shell("dpkg-deb -x liblimitcheck-dev_*.deb lib").code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "lib/usr/bin"));

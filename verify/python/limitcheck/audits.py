@@ -68,7 +68,7 @@ class Report:
 
 
 def audit(subject: Union[str, os.PathLike, Callable], meshes: Optional[Sequence] = None, *, scheme: Optional[str] = None,
-          points: str = "limit", normals: bool = False, precision: str = "float64", max_depth: int = 6,
+          points: str = "limit", normals: bool = False, precision: str = "float64", weights: str = "loop", max_depth: int = 6,
           depth: Optional[int] = None, arguments: Sequence[str] = ()) -> Report:
     """Audits a tessellator.
 
@@ -80,24 +80,25 @@ def audit(subject: Union[str, os.PathLike, Callable], meshes: Optional[Sequence]
     points     of a function: whether its vertices are points of the limit surface ("limit") or of the refined mesh ("refined")
     normals    of a function: whether it returns unit normals
     precision  of a function: "float64" or "float32", in which it computes
+    weights    of a function of Loop's scheme: "loop" or "warren", its weights of interior vertices
     depth      how often the meshes are subdivided
     arguments  more of the command line: ["--level", "quick"]
 
     Where a vertex lies on the control mesh is found by how the faces are connected: only the function's points are judged.
     An exception in the function is a finding. Raises Error for what `limitcheck audit` refuses.
     """
-    with _Question(subject, scheme, points, normals, precision, max_depth) as ask:
+    with _Question(subject, scheme, points, normals, precision, weights, max_depth) as ask:
         more = [] if depth is None else ["--depth", str(depth)]
         document, code, text = ask("audit", [*map(ask.mesh, meshes or []), *more, *arguments])
         return Report(document, code, text)
 
 
 def hunt(subject: Union[str, os.PathLike, Callable], *, cases: int = 1000, seed: int = 1, scheme: Optional[str] = None,
-         points: str = "limit", normals: bool = False, precision: str = "float64", max_depth: int = 6,
+         points: str = "limit", normals: bool = False, precision: str = "float64", weights: str = "loop", max_depth: int = 6,
          arguments: Sequence[str] = ()) -> dict:
     """Searches for anything wrong with a tessellator on random meshes; the rest is as for audit(). Returns the JSON of
     `limitcheck hunt` as a dictionary: ["findings"] has what was found, each shrunk to few faces."""
-    with _Question(subject, scheme, points, normals, precision, max_depth) as ask:
+    with _Question(subject, scheme, points, normals, precision, weights, max_depth) as ask:
         return ask("hunt", ["--cases", str(cases), "--seed", str(seed), "--jobs", "1", "--witnesses",
                             os.path.join(ask.folder, "witnesses"), *arguments])[0]
 
@@ -105,14 +106,14 @@ def hunt(subject: Union[str, os.PathLike, Callable], *, cases: int = 1000, seed:
 class _Question:
     """The program, asked about a subject: a function of this process or whatever it takes itself."""
 
-    def __init__(self, subject, scheme, points, normals, precision, max_depth):
+    def __init__(self, subject, scheme, points, normals, precision, weights, max_depth):
         self._folder = tempfile.TemporaryDirectory(prefix="limitcheck-")
         self.folder = self._folder.name
         self.scheme = [] if scheme is None else ["--scheme", scheme]
         self.meshes = 0
         self.served = None
         if callable(subject):
-            self.served = _Served(subject, self.folder, scheme or "loop", points, normals, precision, max_depth)
+            self.served = _Served(subject, self.folder, scheme or "loop", points, normals, precision, weights, max_depth)
         self.label = self.served.label if self.served else os.fspath(subject)
 
     def __enter__(self):
@@ -173,10 +174,11 @@ class _Served:
     """Answers the protocol of verify/host/isolation/PROTOCOL.md with a function of this process: the program starts a relay
     (relay.py) for each mesh, which connects to a socket here."""
 
-    def __init__(self, function: Callable, folder: str, scheme: str, points: str, normals: bool, precision: str, max_depth: int):
+    def __init__(self, function: Callable, folder: str, scheme: str, points: str, normals: bool, precision: str, weights: str,
+                 max_depth: int):
         self.function = function
         self.real = np.dtype(precision)
-        self.capabilities = {"limitcheck": 2, "status": "ok", "schemes": [scheme], "precision": precision, "weights": "loop",
+        self.capabilities = {"limitcheck": 2, "status": "ok", "schemes": [scheme], "precision": precision, "weights": weights,
                              "boundary": "spline", "points": points, "max_depth": max_depth, "normals": normals,
                              "per_face_depth": False, "exact_lattice": True, "provenance": False,
                              "does_not_validate": True}

@@ -21,7 +21,7 @@ class Manual : public InstalledTest {};
 TEST_F(Manual, SaysWhatHelpSays) {
   const std::string page = contents_of(LIMITCHECK_BINARY_DIR "/limitcheck.1");
   for (const char* text :
-       {".B limitcheck eval\n[\\fIoptions\\fR] \\fIMESH\\fR \\fIFACE\\fR \\fIU\\fR \\fIV\\fR\n",
+       {".B limitcheck eval\n[\\fIoptions\\fR] \\fIMESH\\fR [\\fIFACE\\fR] [\\fIU\\fR] [\\fIV\\fR]\n",
         ".B limitcheck repair\n[\\fIoptions\\fR] \\fB\\-o\\fR \\fIFILE\\fR [\\fIMESH\\fR]\n",
         ".SS limitcheck audit\nJudge a tessellator against the exact surface.\n.TP\n\\fISUBJECT\\fR\n",
         ".TP\n\\fB\\-\\-precision\\fR \\fIfloat\\fR|\\fIdouble\\fR\nRound the control mesh",

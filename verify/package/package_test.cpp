@@ -177,10 +177,12 @@ TEST_F(DebianPackage, OfTheProgramRunsAndSaysItsLicence) {
 
   if (fs::exists(LIMITCHECK_BINARY_DIR "/python/limitcheck/_core.pyi")) {
     ASSERT_EQ(shell("dpkg-deb -x python3-limitcheck_*.deb python").code, 0);
-    EXPECT_TRUE(says(shell("dpkg-deb -f python3-limitcheck_*.deb Depends").out, "limitcheck, python3, python3-numpy"));
+    EXPECT_TRUE(says(shell("dpkg-deb -f python3-limitcheck_*.deb Depends").out,
+                     "limitcheck, python3, python3-numpy"));
     const Outcome o = shell(
         "PATH=$PWD/root/usr/bin:$PATH PYTHONPATH=python/usr/lib/python3/dist-packages /usr/bin/python3 -P -c "
-        "'import limitcheck; print(limitcheck.__file__, limitcheck.audit(\"naive\", [\"octahedron\"], depth=1).held)'");
+        "'import limitcheck; print(limitcheck.__file__, limitcheck.audit(\"naive\", [\"octahedron\"], "
+        "depth=1).held)'");
     EXPECT_TRUE(says(o.out, "dist-packages/limitcheck/__init__.py True")) << o.err;
   }
 

@@ -118,6 +118,36 @@ TEST_F(Examples, InCWithOneWeightChangedIsCaughtWithTheRightWitness) {
   EXPECT_EQ(causes.size(), 1U) << causes;
 }
 
+// The same in the other languages.
+TEST_F(Examples, InEveryLanguageOneWeightChangedIsCaught) {
+  install();
+  const auto changed = [&](const std::string& folder, const std::string& file, const std::string& right) {
+    fs::copy(kExamples / folder, folder_ / folder, fs::copy_options::recursive);
+    std::string code = contents_of(kExamples / folder / file);
+    const std::size_t place = code.find(right);
+    ASSERT_NE(place, std::string::npos) << file;
+    write(folder + "/" + file, code.replace(place, right.size(), "0.626"));
+  };
+  changed("cpp", "loop.h", "5.0 / 8");
+  build(folder_ / "cpp", "cpp/build");
+  changed("python", "loop.py", "5 / 8");
+  std::vector<std::string> commands{"prefix/bin/limitcheck audit cpp/build/libloop.so",
+                                    "prefix/bin/limitcheck audit --program 'python3 python/loop.py'"};
+  if (std::system("node --version > /dev/null 2>&1") == 0) {
+    changed("node", "loop.mjs", "5 / 8");
+    commands.emplace_back("LIMITCHECK_PROGRAM=prefix/bin/limitcheck node node/geometry.mjs");
+  }
+  for (const std::string& command : commands) {
+    const Outcome o = shell(command + " octahedron --depth 1 --level quick --json -", 1);
+    bool found = false;
+    const json report = json::parse(o.out);
+    for (const json& row : report["results"])
+      found |=
+          row["status"] == "finding" && (row["check"] == "positions" || row["check"] == "refined-positions");
+    EXPECT_TRUE(found) << command;
+  }
+}
+
 TEST_F(Examples, InPythonPassesTheAudit) {
   const std::string audit =
       "audit --program \"python3 '" + (kExamples / "python/loop.py").string() + "'\" --timeout 300 --json - ";
@@ -159,9 +189,18 @@ TEST_F(Examples, OfMatricesPassesTheAuditAndIsNotHandedBrokenMeshes) {
 
 TEST_F(Examples, InJavaScriptPassesTheAudit) {
   if (std::system("node --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "node is not installed";
-  expect_refined_points_held(run("audit --program \"node '" + (kExamples / "node/geometry.mjs").string() +
-                                 "'\" octahedron fan:5 wheel:13:2 --depth 2 --json -"),
-                             3U);
+  expect_refined_points_held(
+      shell("LIMITCHECK_PROGRAM='" LIMITCHECK_PROGRAM "' node '" +
+            (kExamples / "node/geometry.mjs").string() + "' octahedron fan:5 wheel:13:2 --depth 2 --json -"),
+      3U);
+  // What is no mesh, or no function's result.
+  write("wrong.mjs", "import { audit } from '" + (kExamples / "node/index.mjs").string() +
+                         "';\naudit('wrong', () => ({ points: [] }));\n");
+  const Outcome wrong =
+      shell("LIMITCHECK_PROGRAM='" LIMITCHECK_PROGRAM "' node wrong.mjs octahedron --json -", 1);
+  EXPECT_TRUE(says(wrong.out, "the function has to return { position, index } or { position, faces }"));
+  EXPECT_TRUE(
+      says(shell("LIMITCHECK_PROGRAM=/nowhere node wrong.mjs", 2).err, "there is no program /nowhere"));
 }
 
 TEST_F(Examples, InPythonOfQuadsAndPolygonsPassesTheAudit) {

@@ -342,8 +342,9 @@ TEST_F(ExportedFiles, OneFaultInTheFileTurnsTheChecksRedThatAreMeantForIt) {
   const auto flip = [](Obj& o) { std::swap(o.faces[200][0], o.faces[200][1]); };
   sees("file-orientation", flip);
   sees("file-watertight", flip);
-  // Two neighbours in each other's place: every vertex on the surface, every edge shared by two triangles.
-  sees("file-orientation", [](Obj& o) {
+  // Two neighbours in each other's place: every vertex on the surface, every edge shared by two triangles, and the faces
+  // those of the mesh; so neither is where it should be.
+  sees("file-distance", [](Obj& o) {
     const auto& f = o.faces[250];
     std::swap(o.positions[f[0]], o.positions[f[1]]);
   });

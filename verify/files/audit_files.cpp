@@ -90,7 +90,15 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
 
   FileEvidence e{control_name, control, surface, tessellation, options.tolerance};
   const auto placed = [&](std::size_t done, std::size_t total) { step("closest points", done, total); };
-  place_points(e, provenance, placed, Search::kQuick);
+  const bool told = !provenance.empty();
+  const std::vector<ProvenanceRow> matched = told ? std::vector<ProvenanceRow>() : matched_provenance(e);
+  const std::vector<ProvenanceRow>& known = told ? provenance : matched;
+  if (!matched.empty())
+    audit.notes.emplace_back(
+        "the faces are connected as those of the control mesh after some steps: each vertex is held against "
+        "its own point "
+        "of the surface, not against the nearest");
+  place_points(e, known, told, placed, Search::kQuick);
   append(audit.results, check_file_finite(e));
   append(audit.results, check_file_unused(e));
   const auto by_feet = [&] {
@@ -105,7 +113,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   };
   std::vector<Result> rows = by_feet();
   if (any_quick(e) && std::any_of(rows.begin(), rows.end(), is_bad)) {
-    place_points(e, provenance, placed, Search::kThorough);
+    place_points(e, known, told, placed, Search::kThorough);
     rows = by_feet();
   }
   append(audit.results, std::move(rows));

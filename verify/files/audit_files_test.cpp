@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -53,6 +54,47 @@ TEST(AuditFiles, DuplicateVerticesDegenerateTrianglesAndMissingNormalsAreNoFault
   EXPECT_EQ(row(a, "file-normals").status, Status::kNotSupported);
   FilesOptions strict{.needs_normals = true};
   EXPECT_EQ(findings(audit(mesh, soup, strict)), "file-normals");
+}
+
+bool is_matched(const FilesAudit& a) {
+  return std::any_of(a.notes.begin(), a.notes.end(), [](const std::string& note) {
+    return note.starts_with("the faces are connected as those");
+  });
+}
+
+// Where the faces are those of the refined mesh, each vertex has a point of its own: one that slides along the surface is
+// off by as much as it slid. Where most have been moved, or the faces are others, the nearest point is meant.
+TEST(AuditFiles, AVertexThatSlidesAlongTheSurfaceIsOffWhereTheFacesAreThoseOfTheMesh) {
+  for (const char* name : {"bumpy:200", "icosahedron"}) {  // one of them has symmetries
+    const auto mesh = data::named_mesh(name);
+    const ClosestPoint surface(mesh);
+    FileTessellation t = shuffled(exact(mesh, 2), 3);
+    ASSERT_TRUE(is_matched(audit(mesh, t)));
+    const auto slide = [&](std::size_t v, double by) {
+      const Foot foot = surface.closest(t.positions[v]);
+      const Vector along = cross(foot.normal, foot.normal[0] < .9 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+      const Vector moved = t.positions[v] + by * surface.diagonal() / norm(along) * along;
+      const Vector before = t.positions[v];
+      t.positions[v] = surface.closest(moved).position;
+      return norm(t.positions[v] - before) / surface.diagonal();
+    };
+    const double off = slide(t.positions.size() / 2, 1e-4);
+    const FilesAudit one = audit(mesh, t);
+    EXPECT_TRUE(is_matched(one));
+    EXPECT_EQ(row(one, "file-distance").bad, 1);
+    EXPECT_NEAR(*row(one, "file-distance").worst, off, 1e-7);  // floats
+    for (std::size_t v = 0; v < t.positions.size(); ++v) slide(v, 1e-4);
+    const FilesAudit all = audit(mesh, t);
+    EXPECT_FALSE(is_matched(all));
+    EXPECT_EQ(row(all, "file-distance").status, Status::kHeld);
+
+    FileTessellation cut = exact(mesh, 2);
+    cut.triangles.pop_back();
+    EXPECT_FALSE(is_matched(audit(mesh, cut)));
+    FileTessellation swapped = exact(mesh, 2);
+    std::swap(swapped.triangles[5][0], swapped.triangles[5][1]);
+    EXPECT_FALSE(is_matched(audit(mesh, swapped)));
+  }
 }
 
 // One fault each, and the checks that see it.

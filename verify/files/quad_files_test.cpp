@@ -173,7 +173,7 @@ TEST(QuadFiles, HausdorffsBracketsHoldDenseSamplesOfBothSides) {
     const FileTessellation t = quad_file(m.mesh, 1);
     const ClosestPoint surface(m.mesh, data::Scheme::kCatmullClark, 1 << 12);
     FileEvidence e{m.name, m.mesh, surface, t, 1e-6};
-    place_points(e, {}, [](std::size_t, std::size_t) {});
+    place_points(e, {}, false, [](std::size_t, std::size_t) {});
     expect_brackets(e, quad_file(m.mesh, 4).positions);
   }
 }

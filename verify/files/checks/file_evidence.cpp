@@ -104,7 +104,13 @@ bool any_quick(const FileEvidence& e) {
   return std::find(e.quick.begin(), e.quick.end(), 1) != e.quick.end();
 }
 
-void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
+FacePoint domain_point(const FileEvidence& e, const ProvenanceRow& row) {
+  return e.surface.surface().has_control_faces()
+             ? row.at
+             : e.surface.surface().at({row.at.face, row.corner, row.at.l[1], row.at.l[2]});
+}
+
+void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance, bool told,
                   const std::function<void(std::size_t, std::size_t)>& on_step, Search search) {
   const FileTessellation& t = e.tessellation;
   std::vector<double> flat;
@@ -118,16 +124,12 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   e.place.resize(points);
   e.quick.resize(points, 0);
   std::vector<FacePoint> claim(points);
-  if (!provenance.empty()) {
-    e.claimed.assign(t.positions.size(), {});
-    for (const ProvenanceRow& row : provenance) {
-      const FacePoint at = e.surface.surface().has_control_faces()
-                               ? row.at
-                               : e.surface.surface().at({row.at.face, row.corner, row.at.l[1], row.at.l[2]});
-      e.claimed[row.vertex] = at;
-      const std::int32_t point = e.point_of(static_cast<std::int32_t>(row.vertex));
-      if (point >= 0 && claim[point].face < 0) claim[point] = at;
-    }
+  if (told) e.claimed.assign(t.positions.size(), {});
+  for (const ProvenanceRow& row : provenance) {
+    const FacePoint at = domain_point(e, row);
+    if (told) e.claimed[row.vertex] = at;
+    const std::int32_t point = e.point_of(static_cast<std::int32_t>(row.vertex));
+    if (point >= 0 && claim[point].face < 0) claim[point] = at;
   }
   std::vector<char> used(points, 0);
   for (std::size_t v = 0; v < t.positions.size(); ++v)

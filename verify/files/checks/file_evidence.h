@@ -72,10 +72,19 @@ enum class Search {
   kQuick      ///< where one descent ends on the surface, within a quarter of the tolerance, that is the foot
 };
 
-/// Merges, projects and places all used vertices, in parallel. `on_step`: points done, of how many; from any
+/// A row's place on the surface's own domain.
+FacePoint domain_point(const FileEvidence& e, const ProvenanceRow& row);
+
+/// Where vertices lie by how the faces are connected, if these are the faces of the control mesh after some steps and half
+/// of the vertices are there within the tolerance; else empty. Then each vertex is held against its own point, and one
+/// that was moved along the surface shows.
+std::vector<ProvenanceRow> matched_provenance(const FileEvidence& e);
+
+/// Merges, projects and places all used vertices, in parallel; those that `provenance` has, where it says. `told`: by the
+/// file's user, so that it is `claimed`. `on_step`: points done, of how many; from any
 /// thread, one at a time. Whoever would blame the file for feet that were found quickly is to search
 /// thoroughly first, because the surface may have come near itself; the other feet then stay as they are.
-void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance,
+void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance, bool told,
                   const std::function<void(std::size_t, std::size_t)>& on_step,
                   Search search = Search::kThorough);
 /// Whether any foot was found quickly.

@@ -87,7 +87,7 @@ class Judge {
   const ClosestPoint& surface() const { return surface_; }
   Result operator()(const FileTessellation& t) const {
     FileEvidence e{"mesh", mesh_, surface_, t, 1e-6};
-    place_points(e, {}, [](std::size_t, std::size_t) {});
+    place_points(e, {}, false, [](std::size_t, std::size_t) {});
     return check_file_watertight(e).front();
   }
 
@@ -214,7 +214,7 @@ struct Case {
     t.used.assign(t.positions.size(), true);
   }
   Hausdorff run() {
-    place_points(e, {}, [](std::size_t, std::size_t) {});
+    place_points(e, {}, false, [](std::size_t, std::size_t) {});
     return hausdorff(e);
   }
 };
@@ -285,7 +285,7 @@ TEST(Hausdorff, OfATetrahedronWithATriangleLessIsWhatADenseSearchFinds) {
 TEST(Hausdorff, DenseSamplesOfBothSidesAreWithinTheBrackets) {
   for (const std::string name : {"icosahedron", "bumpy:20", "holes", "wheel:7"}) {
     Case c(name, 1, 1 << 12);
-    place_points(c.e, {}, [](std::size_t, std::size_t) {});
+    place_points(c.e, {}, false, [](std::size_t, std::size_t) {});
     std::vector<Vector> samples;
     for (const auto& s : reference::refine<double>(c.mesh, 3).limits().positions)
       samples.push_back({s.x, s.y, s.z});
@@ -310,7 +310,7 @@ TEST(Hausdorff, OfATinyFileIsTheDistanceFromTheMiddle) {
 
 TEST(Hausdorff, IsEndedByTheOneWhoWaits) {
   Case c("icosahedron", 2, 4096);
-  place_points(c.e, {}, [](std::size_t, std::size_t) {});
+  place_points(c.e, {}, false, [](std::size_t, std::size_t) {});
   EXPECT_THROW(hausdorff(c.e,
                          [calls = 0]() mutable {
                            if (++calls > 3) throw std::runtime_error("enough");

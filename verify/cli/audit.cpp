@@ -199,6 +199,21 @@ std::exception_ptr write_files(const Job& job, const Audited& audited, const std
   return nullptr;
 }
 
+// Whether nothing was judged on a mesh that the user named; says so.
+bool named_and_not_judged(const AuditArguments& a, const verify::Report& report) {
+  bool any = false;
+  for (const std::string& mesh : a.meshes) {
+    const verify::Result* row = nullptr;
+    bool looked = false;
+    for (const verify::Result& r : report.results)
+      if (r.mesh == mesh) row = row == nullptr ? &r : row, looked = looked || verify::looked_at(r);
+    if (looked || row == nullptr) continue;
+    say(stderr, "limitcheck: nothing was judged on {}: {}\n", mesh, row->message);
+    any = true;
+  }
+  return any;
+}
+
 int audit(const Job& job) {
   const AuditArguments& a = job.arguments;
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -285,7 +300,8 @@ int audit(const Job& job) {
     if (later != 0) return kSignalled + later;
     if (!auditor.lack().empty()) return int{kBadInput};
     if (!whole && !report.looked()) return int{kHeld};
-    return exit_code_of(report, judged);
+    const int code = exit_code_of(report, judged);
+    return code == kHeld && named_and_not_judged(a, report) ? int{kBadInput} : code;
   };
   if (!auditor.abandoned()) return finish();
   int code = kBadInput;
@@ -372,6 +388,8 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->callback([=, &exit_code] {
     check_json(a->shard.json);
     if (explained(a->output)) return;
+    if (a->output.all_rows && a->shard.json.empty())
+      throw data::ArgumentError("--all-rows has no effect without --json");
     a->plan = depth->count() + depths->count() + sample->count() == 0;
     refuse_what_has_no_effect(*command, *a, !files->tessellations.empty());
     exit_code = files->tessellations.empty() ? audit(job_of(*a)) : audit_files(*files, *a);

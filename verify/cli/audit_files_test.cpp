@@ -128,7 +128,7 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--threads", {"1", 1, ""}},
       {"--json", {"new.json", 1, "new.json"}},
       {"--details", {"", 1, ""}},
-      {"--all-rows", {"", 1, ""}},
+      {"--all-rows", {"--json all.json", 1, "all.json"}},
       {"--sarif", {"log.sarif", 1, "log.sarif"}},
       {"--markdown", {"page.md", 1, "page.md"}},
       {"--require", {"file-normals", 1, ""}},
@@ -164,6 +164,7 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
   }
   EXPECT_GT(seen, effects.size());
   expect_refused("audit", {"naive --control cage.obj --tessellation out.obj"});
+  EXPECT_TRUE(says(run("audit naive cage.obj --all-rows", 2).err, "--all-rows has no effect without --json"));
   (void)run(files + "out.obj", 0);
   (void)run(files + "out.obj --require file-positions", 2);  // without a provenance there is no such row
   // Several files are subjects of one report.

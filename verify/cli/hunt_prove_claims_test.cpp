@@ -105,11 +105,13 @@ class ProveCommand : public CommandTest {};
 
 TEST_F(ProveCommand, PrintsOneJsonDocumentWithARowForEveryTopologyAndKernel) {
   const Outcome o = run("prove --depth 0 --valences 3,4 --kernel sliding-window --json", 0);
-  // Where it takes more than ten seconds there are lines of progress, "limitcheck: 31/100, 22 s left: ...", and nothing else.
+  // Where it takes more than ten seconds there are lines of progress, "limitcheck: 31/100, 22 s left: proof 161 of 932, ...",
+  // and nothing else.
   std::istringstream lines(o.err);
   for (std::string line; std::getline(lines, line);) {
     int done = 0, of = 0;
     EXPECT_EQ(std::sscanf(line.c_str(), "limitcheck: %d/%d,", &done, &of), 2) << line;
+    EXPECT_TRUE(says(line, " s left: proof ")) << line;
   }
   const json said = json::parse(o.out);
   EXPECT_TRUE(said["held"].get<bool>());

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -92,17 +91,14 @@ void prove_tasks(const verify::ProofSet& set, verify::Journal& journal, Progress
     tasks.push_back(set.tasks[unit]);
     units.push_back(unit);
   }
-  const auto start = std::chrono::steady_clock::now();
   (void)verify::prove(
       tasks,
       [&](const verify::ProofProgress& done) {
         if (!done.rows->empty())
           journal.keep(units[static_cast<std::size_t>(done.latest - tasks.data())],
                        verify::proof_rows_json(*done.rows));
-        const std::chrono::duration<double, std::ratio<60>> passed = std::chrono::steady_clock::now() - start;
         progress.show(static_cast<std::size_t>(100 * done.share), 100,
-                      fmt::format("% ({} of {}), {:.0f} min left: {} {}", done.tasks, tasks.size(),
-                                  passed.count() * (1 - done.share) / done.share, done.latest->group,
+                      fmt::format("proof {} of {}, {} {}", done.tasks, tasks.size(), done.latest->group,
                                   done.latest->neighbourhood.name));
       },
       [] { return verify::interrupted() != 0; });

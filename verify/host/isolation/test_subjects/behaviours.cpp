@@ -25,7 +25,7 @@
 #include <stdexcept>
 #include <string>
 
-extern "C" const lc_subject* good_subject_get(std::uint32_t abi);  // examples/c, its entry renamed
+extern "C" const lc_subject* good_subject_get(std::uint32_t abi);  // good_subject.c, its entry renamed
 
 namespace {
 

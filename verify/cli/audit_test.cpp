@@ -32,6 +32,14 @@ TEST_F(AuditCommand, ExitsWithOneOnFindings) {
   EXPECT_TRUE(says(o.out, "FINDING"));
 }
 
+// Whoever names a mesh wants it judged.
+TEST_F(AuditCommand, ExitsWithTwoWhereNothingWasJudgedOnAMeshThatWasNamed) {
+  const Outcome o = run("audit openmesh octahedron dart:6 --depth 1 --level quick", 2);
+  EXPECT_TRUE(says(o.err, "nothing was judged on dart:6: openmesh: does not do edges that stay sharp"))
+      << o.err;
+  EXPECT_EQ(run("audit naive octahedron dart:6 --depth 1 --level quick", 0).code, 0);
+}
+
 TEST_F(AuditCommand, ExitsWithTwoOnBadUsageAndBadInput) {
   expect_refused("audit", {"no-such-subject", "naive no-such-mesh", "naive tetrahedron --depth 99",
                            "naive tetrahedron --no-such-option", "naive --option nonsense=1 tetrahedron",

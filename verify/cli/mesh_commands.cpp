@@ -113,6 +113,31 @@ void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s
                          s.float_step, s.edges_lost_in_float));
 }
 
+// "12 for ever, 3 semi-sharp (0.5 to 3)".
+template <class Tags>
+std::string sharp(const Tags& tags) {
+  std::int64_t lasting = 0, semi = 0;
+  float least = data::kInfiniteSharpness, most = 0;
+  for (const auto& tag : tags) {
+    if (tag.sharpness >= data::kInfiniteSharpness) ++lasting;
+    if (!(tag.sharpness > 0) || tag.sharpness >= data::kInfiniteSharpness) continue;
+    ++semi;
+    least = std::min(least, tag.sharpness), most = std::max(most, tag.sharpness);
+  }
+  std::string text = lasting > 0 ? fmt::format("{} for ever", lasting) : "";
+  if (semi > 0)
+    text += fmt::format("{}{} semi-sharp ({}{})", lasting > 0 ? ", " : "", semi, least,
+                        least < most ? fmt::format(" to {}", most) : "");
+  return text;
+}
+
+void print_sharpness(const data::Sharpness& s) {
+  if (const std::string edges = sharp(s.edges); !edges.empty())
+    line("sharp edges",
+         edges + (s.creasing == data::Creasing::kChaikin ? "; sharpness falls by Chaikin's rule" : ""));
+  if (const std::string vertices = sharp(s.vertices); !vertices.empty()) line("sharp vertices", vertices);
+}
+
 // Triangles of the mesh, or those that its faces would be cut into.
 std::int64_t triangles(const data::Faces& faces) {
   return static_cast<std::int64_t>(faces.corners().size()) - 2 * static_cast<std::int64_t>(faces.size());
@@ -178,14 +203,19 @@ nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen
           {"edges_lost_in_float", s.edges_lost_in_float}};
 }
 
+constexpr std::size_t kMostListed = 20;
+
 void print_faults(const std::string& file, const data::io::PolygonSoup& soup,
                   const std::vector<data::io::SoupFault>& faults) {
   const Found found = sorted(faults);
   const auto print = [&](const char* what, const char* why, const std::vector<data::io::SoupFault>& some) {
     line(what, fmt::format("{}{}, vertices and faces counted from {}, as the file does:", some.size(), why,
                            soup.first));
-    for (const auto& f : some)
-      say("  {}{}: {}: {}\n", file, f.line > 0 ? fmt::format(":{}", f.line) : "", f.code, f.message);
+    for (std::size_t k = 0; k < std::min(some.size(), kMostListed); ++k)
+      say("  {}{}: {}: {}\n", file, some[k].line > 0 ? fmt::format(":{}", some[k].line) : "", some[k].code,
+          some[k].message);
+    if (some.size() > kMostListed)
+      say("  and {} more; limitcheck check {} --json has them all\n", some.size() - kMostListed, file);
   };
   if (!found.unused.empty()) print("unused vertices", ", which an audit leaves out", found.unused);
   if (found.faults.empty())
@@ -210,6 +240,7 @@ int check(const CheckArguments& a) {
   } else {
     say("{}\n", scheme_line({chosen}, a.mesh));
     print_summary(soup, summary);
+    print_sharpness(found.mesh.sharpness);
     for (const std::string& note : found.notes) line("note", note);
     print_faults(a.file, soup, found.faults);
   }

@@ -367,5 +367,47 @@ TEST_F(Scheme, WhatIsNoManifoldOnceItIsCutIsRefused) {
   EXPECT_TRUE(says(o.err, "edge 1–3 has 4 faces (1, 1, 2, 2)"));
 }
 
+// Each line that `help tags` shows is read, and check says so where it is an edge or a vertex.
+TEST_F(CheckCommand, TheTagsOfTheHelpAreReadAndCounted) {
+  const std::string help = run("help tags", 0).out;
+  ASSERT_EQ(run("generate quad-cube -o cube.obj").code, 0);
+  const std::string cube = read("cube.obj");
+  std::size_t tags = 0;
+  std::istringstream in(help);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("  t ")) continue;
+    ++tags;
+    std::string tag = line.substr(2, line.find("   ", 4) - 2);
+    const auto edge = cube.substr(cube.find("\nf ") + 3);  // "1 2 3 4", from 1
+    for (const auto& [letter, number] :
+         {std::pair{" A ", fmt::format(" {} ", std::stoi(edge) - 1)},
+          {" B ", fmt::format(" {} ", std::stoi(edge.substr(edge.find(' '))) - 1)},
+          {" V ", std::string(" 3 ")}})
+      if (const auto at = tag.find(letter); at != tag.npos) tag.replace(at, 3, number);
+    if (tag.ends_with(" S")) tag.replace(tag.size() - 1, 1, "23/10");
+    if (tag.ends_with(" F")) tag.replace(tag.size() - 1, 1, "5");
+    write("tagged.obj", cube + tag + "\n");
+    const std::string said = run("check tagged.obj", 0).out;
+    if (says(tag, "crease ")) EXPECT_TRUE(says(said, "sharp edges         1 semi-sharp (2.3)\n")) << said;
+    if (says(tag, "corner ")) EXPECT_TRUE(says(said, "sharp vertices      1 semi-sharp (2.3)\n")) << said;
+    if (says(tag, "hole ")) {
+      ASSERT_EQ(run("audit naive tagged.obj --depth 1 --level quick").code, 0);
+    }
+  }
+  EXPECT_EQ(tags, 6U);
+  EXPECT_TRUE(says(run("help tag", 2).err, "there is no command 'tag'"));
+  EXPECT_TRUE(says(run("help eval", 0).out, "--digits"));
+}
+
+TEST_F(CheckCommand, LongListsOfFaultsAreCutAndJsonHasThemAll) {
+  std::string file = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int k = 0; k < 400; ++k) file += "f 1 2 3\n";
+  write("many.obj", file);
+  const std::string said = run("check many.obj", 1).out;
+  EXPECT_LT(std::count(said.begin(), said.end(), '\n'), 60);
+  EXPECT_TRUE(says(said, " more; limitcheck check many.obj --json has them all"));
+  EXPECT_GT(json_of("check many.obj --json", 1)["faults"].size(), 300U);
+}
+
 }  // namespace
 }  // namespace limitcheck::cli

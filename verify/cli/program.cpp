@@ -105,9 +105,34 @@ void become(const fs::path& path, const std::vector<std::string>& arguments) {
   say(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
 }
 
+constexpr const char* kTags =
+    R"(Sharp edges and vertices, and what else a control mesh says beside its faces: lines of an OBJ file that OpenSubdiv
+reads, too. Vertices and faces count from 0 in them.
+
+  t crease 2/1/0 A B S              the edge from vertex A to vertex B has the sharpness S: 0.5, 23/10; 10 and more stays sharp
+  t corner 1/1/0 V S                vertex V has the sharpness S
+  t interpolateboundary 1/0/0 1     boundary vertices of one face are held (2, or no such line: they are not)
+  t creasemethod 0/0/1 chaikin      sharpness falls by Chaikin's rule (normal, or no such line: by 1 in each step)
+  t smoothtriangles 0/0/1 smooth    Catmull-Clark's scheme: OpenSubdiv's other rule for triangles (catmark: the usual one)
+  t hole 1/0/0 F                    face F shapes its neighbours and is not shown
+
+`limitcheck generate creased-cube:2 -o creased.obj` writes an example, and `limitcheck check creased.obj` says what is read.
+)";
+
 int parse(CLI::App& app, int argc, char** argv, const int& exit_code) {
   // `limitcheck help COMMAND` is `limitcheck COMMAND --help`.
   std::vector<const char*> words(argv, argv + argc);
+  if (argc == 3 && std::string_view(argv[1]) == "help" && std::string_view(argv[2]) == "tags") {
+    say("{}", kTags);
+    return kHeld;
+  }
+  if (argc > 2 && std::string_view(argv[1]) == "help" && app.get_subcommand_no_throw(argv[2]) == nullptr) {
+    say(stderr,
+        "limitcheck: there is no command '{}', nor a text about it; the one text is `limitcheck help "
+        "tags`\n{}",
+        argv[2], what_was_meant(argv[2]));
+    return kBadInput;
+  }
   if (argc > 1 && std::string_view(argv[1]) == "help") {
     words.erase(words.begin() + 1);
     words.push_back("--help");

@@ -105,6 +105,12 @@ void become(const fs::path& path, const std::vector<std::string>& arguments) {
   say(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
 }
 
+bool is_command(const CLI::App& app, const std::string& word) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(commands.begin(), commands.end(),
+                     [&](const CLI::App* command) { return command->check_name(word); });
+}
+
 constexpr const char* kTags =
     R"(Sharp edges and vertices, and what else a control mesh says beside its faces: lines of an OBJ file that OpenSubdiv
 reads, too. Vertices and faces count from 0 in them.
@@ -126,7 +132,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& exit_code) {
     say("{}", kTags);
     return kHeld;
   }
-  if (argc > 2 && std::string_view(argv[1]) == "help" && app.get_subcommand_no_throw(argv[2]) == nullptr) {
+  if (argc > 2 && std::string_view(argv[1]) == "help" && !is_command(app, argv[2])) {
     say(stderr,
         "limitcheck: there is no command '{}', nor a text about it; the one text is `limitcheck help "
         "tags`\n{}",

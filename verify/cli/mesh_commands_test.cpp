@@ -3,9 +3,12 @@
 // `limitcheck check` and `limitcheck repair` as a user meets them.
 // Every command that takes a control mesh chooses the scheme by the mesh, says so first, and cuts no polygon
 // unless it is told to.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "data/generators/polygon_meshes.h"

@@ -391,8 +391,8 @@ TEST_F(CheckCommand, TheTagsOfTheHelpAreReadAndCounted) {
     if (tag.ends_with(" F")) tag.replace(tag.size() - 1, 1, "5");
     write("tagged.obj", cube + tag + "\n");
     const std::string said = run("check tagged.obj", 0).out;
-    if (says(tag, "crease ")) EXPECT_TRUE(says(said, "sharp edges         1 semi-sharp (2.3)\n")) << said;
-    if (says(tag, "corner ")) EXPECT_TRUE(says(said, "sharp vertices      1 semi-sharp (2.3)\n")) << said;
+    EXPECT_EQ(says(said, "sharp edges         1 semi-sharp (2.3)\n"), says(tag, "crease ")) << said;
+    EXPECT_EQ(says(said, "sharp vertices      1 semi-sharp (2.3)\n"), says(tag, "corner ")) << said;
     if (says(tag, "hole ")) {
       ASSERT_EQ(run("audit naive tagged.obj --depth 1 --level quick").code, 0);
     }

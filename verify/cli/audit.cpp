@@ -388,8 +388,8 @@ void add_audit(CLI::App& app, int& exit_code) {
   command->callback([=, &exit_code] {
     check_json(a->shard.json);
     if (explained(a->output)) return;
-    if (a->output.all_rows && a->shard.json.empty())
-      throw data::ArgumentError("--all-rows has no effect without --json");
+    if (a->output.all_rows && a->shard.json.empty() && a->report.empty())
+      throw data::ArgumentError("--all-rows has no effect without --json or --report");
     a->plan = depth->count() + depths->count() + sample->count() == 0;
     refuse_what_has_no_effect(*command, *a, !files->tessellations.empty());
     exit_code = files->tessellations.empty() ? audit(job_of(*a)) : audit_files(*files, *a);

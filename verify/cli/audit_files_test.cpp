@@ -164,7 +164,8 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
   }
   EXPECT_GT(seen, effects.size());
   expect_refused("audit", {"naive --control cage.obj --tessellation out.obj"});
-  EXPECT_TRUE(says(run("audit naive cage.obj --all-rows", 2).err, "--all-rows has no effect without --json"));
+  EXPECT_TRUE(says(run("audit naive cage.obj --all-rows", 2).err,
+                   "--all-rows has no effect without --json or --report"));
   (void)run(files + "out.obj", 0);
   (void)run(files + "out.obj --require file-positions", 2);  // without a provenance there is no such row
   // Several files are subjects of one report.

@@ -15,6 +15,7 @@
 #include "verify/audit/shrink.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/screen.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/baseline.h"
 #include "verify/report/forms.h"
@@ -88,7 +89,7 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
 
 void say_report(const verify::Report& report,
                 const std::function<std::string(const verify::Report&, bool)>& text_in_colour) {
-  if (isatty(STDOUT_FILENO) == 0 || std::getenv("NO_COLOR") != nullptr)
+  if (!takes_escapes(STDOUT_FILENO) || std::getenv("NO_COLOR") != nullptr)
     return say_text(stdout, text_in_colour(report, false));
   verify::Report shown = report;  // with no escape sequences but ours
   const auto show = [](std::string& text) { text = verify::visible_text(text); };

@@ -100,6 +100,16 @@ TEST_F(AuditOutput, AWaivedFindingIsNoFindingAndASuperfluousWaiverIsReported) {
   EXPECT_EQ(run(audit + "--waivers waivers.json").code, 2);
 }
 
+// On a terminal there are colours and a line of progress that is written over, on one that is dumb there are none.
+TEST_F(AuditOutput, ADumbTerminalGetsNoEscapeSequences) {
+  const auto on_terminal = [&](const std::string& variables) {
+    write("audit.sh", variables + " '" LIMITCHECK_PROGRAM "' audit naive octahedron --depth 1\n");
+    return command("script -qec 'sh audit.sh' /dev/null", 0).out;
+  };
+  EXPECT_TRUE(says(on_terminal("TERM=xterm"), "\033["));
+  EXPECT_FALSE(says(on_terminal("TERM=dumb"), "\033["));
+}
+
 TEST_F(AuditOutput, EveryCheckIsExplained) {
   const Outcome o = run("audit --explain positions", 0);
   EXPECT_TRUE(says(o.out, "bound"));

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include "verify/row/visible_text.h"
@@ -45,8 +47,14 @@ void show_the_end(int signal) {
 
 }  // namespace
 
+bool takes_escapes(int fd) {
+  const char* kind = std::getenv("TERM");
+  return isatty(fd) != 0 && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
 Progress::Progress(std::chrono::milliseconds between)
-    : terminal_(isatty(STDERR_FILENO) != 0), between_(terminal_ ? std::chrono::milliseconds(100) : between) {}
+    : terminal_(takes_escapes(STDERR_FILENO)),
+      between_(terminal_ ? std::chrono::milliseconds(100) : between) {}
 
 void Progress::show(std::size_t done, std::size_t total, const std::string& text) {
   const auto now = Clock::now();

@@ -8,6 +8,9 @@
 
 namespace limitcheck::cli {
 
+/// Whether a file descriptor is a terminal that takes escape sequences: not one whose TERM is "dumb".
+bool takes_escapes(int fd);
+
 /// Says on standard error what is being done now and how long it may still take: on a terminal in one line that is
 /// rewritten in place, elsewhere (a pipe, a log of CI) in a line every ten seconds. Not thread-safe.
 class Progress {

@@ -144,7 +144,7 @@ TEST(Unjudged, IsSaidOfNormalsThatASubjectDoesNotDeliver) {
   const auto missing = unjudged(cgal);
   ASSERT_EQ(missing.size(), 1U) << "its refined points are judged";
   EXPECT_EQ(missing[0].check, "normals");
-  EXPECT_TRUE(says(to_table(cgal, false), "normals of cgal were never judged"));
+  EXPECT_TRUE(says(to_table(cgal, {}), "normals of cgal were never judged"));
   EXPECT_TRUE(unjudged(report_of("naive")).empty());
 }
 

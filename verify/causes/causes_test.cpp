@@ -200,7 +200,7 @@ TEST(Causes, CoverEveryRedRowOfRealSubjects) {
   const std::vector<Cause> all = causes(report);
   expect_partition(report, all);
   EXPECT_GE(all.size(), 4U);
-  const std::string screen = to_overview(report, all, false, "scheme: both", "standard", "");
+  const std::string screen = to_overview(report, all, {}, "scheme: both", "standard", "");
   EXPECT_LE(std::count(screen.begin(), screen.end(), '\n'), kScreen) << screen;
 }
 

@@ -13,6 +13,7 @@
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/help.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
@@ -153,10 +154,10 @@ void print(const Job& job, const verify::Report& report, const std::string& json
   if (a.shard.json == "-")
     say_text(stdout, json);
   else
-    say_report(report, [&](const verify::Report& shown, bool in_colour) {
+    say_report(a.output, report, [&](const verify::Report& shown, const verify::Screen& screen) {
       const std::string schemes = verify::visible_text(scheme_line);
-      return a.details || a.each_mesh ? schemes + "\n" + verify::to_table(shown, in_colour, a.each_mesh)
-                                      : verify::to_overview(shown, verify::causes(shown), in_colour, schemes,
+      return a.details || a.each_mesh ? schemes + "\n" + verify::to_table(shown, screen, a.each_mesh)
+                                      : verify::to_overview(shown, verify::causes(shown), screen, schemes,
                                                             a.output.level, where_the_rest_is(job));
     });
 }
@@ -187,7 +188,7 @@ std::exception_ptr write_files(const Job& job, const Audited& audited, const std
       verify::write_text(report_file(a, "txt"),
                          "Root causes\n\n" +
                              verify::causes_in_full(report, verify::causes(report), a.output.level) +
-                             "Tables\n\n" + verify::to_table(report, false));
+                             "Tables\n\n" + verify::to_table(report, {}));
     }
     for (const std::string& html : {a.output.html, report_file(a, "html")})
       if (!html.empty()) write_html(html, audited, a.output.level);
@@ -381,6 +382,17 @@ void add_audit(CLI::App& app, int& exit_code) {
   add_subject_options(*command, a->from);
   auto files = std::make_shared<FilesArguments>();
   add_files_options(*command, *files);
+  group(*command, "What is looked at",
+        {"--scheme", "--triangulate", "--depth", "--depths", "--sample", "--exhaustive", "--level",
+         "--checks", "--rerun", "--must-refuse"});
+  group(*command, "The subject", {"--option", "--threads"});
+  group(*command, "On the screen", {"--details", "--each-mesh", "--explain", "--color"});
+  group(*command, "Reports",
+        {"--report", "--json", "--all-rows", "--html", "--junit", "--sarif", "--markdown", "--witnesses",
+         "--shrink"});
+  group(*command, "What is required, known and new",
+        {"--require", "--require-coverage", "--waivers", "--baseline", "--save-baseline"});
+  group(*command, "Long audits", {"--shard", "--resume"});
   command->footer(
       "Exit codes: 0 all held, 1 findings, 2 bad usage or input, or nothing that was asked for or required "
       "is supported. Ctrl-C ends the audit with a report of the results so far, marked as incomplete, and "

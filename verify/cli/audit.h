@@ -19,13 +19,14 @@
 #include "verify/cli/units.h"
 #include "verify/evidence/face_depths.h"
 #include "verify/files/audit_files.h"
+#include "verify/report/columns.h"
 #include "verify/report/coverage.h"
 
 namespace limitcheck::cli {
 
-/// --require, --require-coverage, --all-rows, --junit, --sarif, --markdown, --waivers, --baseline and --save-baseline: what can be done with a report alone.
+/// --require, --require-coverage, --all-rows, --color, --junit, --sarif, --markdown, --waivers, --baseline and --save-baseline: what can be done with a report alone.
 struct ReportOptions {
-  std::string junit, sarif, markdown, waivers, baseline, save_baseline;
+  std::string junit, sarif, markdown, waivers, baseline, save_baseline, colour = "auto";
   std::vector<std::string> required;
   bool require_coverage = false, all_rows = false;
 };
@@ -40,9 +41,10 @@ bool settle(const ReportOptions& options, verify::Report& report);
 int exit_code_of(const verify::Report& report, bool judged);
 /// Why a report in which nothing was looked at is incomplete.
 std::string nothing_looked_at(bool polygons);
-/// Prints a report: in colour if standard output is a terminal and NO_COLOR is not set.
-void say_report(const verify::Report& report,
-                const std::function<std::string(const verify::Report&, bool in_colour)>& text);
+/// Prints a report as wide as the screen is, in colour as --color says: `auto` is yes if standard output is a terminal
+/// and NO_COLOR is not set.
+void say_report(const ReportOptions& options, const verify::Report& report,
+                const std::function<std::string(const verify::Report&, const verify::Screen&)>& text);
 /// Outputs, besides those of `options`, as pairs of option and file name, "-" or "" for none. Throws data::ArgumentError: two of them are one and
 /// the same file.
 void refuse_one_file_for_two(std::vector<std::pair<std::string, std::string>> outputs,

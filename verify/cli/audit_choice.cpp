@@ -112,10 +112,10 @@ void refuse_with_shards(const AuditArguments& a) {
 }
 
 void refuse_what_has_no_effect(const CLI::App& command, const AuditArguments& a, bool files) {
-  static const std::set<std::string> kOfFiles{"--all-rows",      "--sarif",   "--markdown", "--scheme",
-                                              "--triangulate",   "--threads", "--json",     "--details",
-                                              "--require",       "--junit",   "--waivers",  "--baseline",
-                                              "--save-baseline", "--html",    "--witnesses"};
+  static const std::set<std::string> kOfFiles{"--all-rows", "--color",         "--sarif",   "--markdown",
+                                              "--scheme",   "--triangulate",   "--threads", "--json",
+                                              "--details",  "--require",       "--junit",   "--waivers",
+                                              "--baseline", "--save-baseline", "--html",    "--witnesses"};
   static const std::set<std::string> kNotAgain{
       "SUBJECT",       "MESH",       "--checks",      "--depth",           "--depths",  "--sample",
       "--exhaustive",  "--scheme",   "--triangulate", "--option",          "--program", "--level",

@@ -184,10 +184,10 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   if (json == "-") {
     say_text(stdout, text);
   } else {
-    say_report(report, [&](const verify::Report& shown, bool in_colour) {
+    say_report(a.output, report, [&](const verify::Report& shown, const verify::Screen& screen) {
       const std::string top = verify::visible_text(about);
-      return a.details ? top + "\n\n" + verify::to_table(shown, in_colour)
-                       : verify::to_overview(shown, verify::causes(shown), in_colour, top, a.output.level,
+      return a.details ? top + "\n\n" + verify::to_table(shown, screen)
+                       : verify::to_overview(shown, verify::causes(shown), screen, top, a.output.level,
                                              "--details prints all tables. --explain CHECK says what a check "
                                              "means.\n");
     });

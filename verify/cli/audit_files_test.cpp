@@ -129,6 +129,7 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--json", {"new.json", 1, "new.json"}},
       {"--details", {"", 1, ""}},
       {"--all-rows", {"--json all.json", 1, "all.json"}},
+      {"--color", {"always", 1, ""}},
       {"--sarif", {"log.sarif", 1, "log.sarif"}},
       {"--markdown", {"page.md", 1, "page.md"}},
       {"--require", {"file-normals", 1, ""}},

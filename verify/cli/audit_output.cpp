@@ -34,7 +34,7 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
                   "Checks, separated by commas, that must have judged something of each subject; otherwise "
                   "nothing is confirmed (exit code 2)")
       ->delimiter(',')
-      ->check(CLI::IsMember(checks))
+      ->check(CLI::IsMember(checks).description(""))  // --explain all lists them
       ->transform([](const std::string& check) { return std::string(verify::current_name(check)); })
       ->type_name("CHECK,...");
   command.add_flag("--require-coverage", a.require_coverage,
@@ -44,6 +44,9 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
                    fmt::format("Write every row to the JSON report; without it a report of more than {} rows "
                                "has of each subject and check the {} that say most, and the others in short",
                                verify::kMostInFull, verify::kInFull));
+  command.add_option("--color,--colour", a.colour, "Colours on the screen: auto is where it is a terminal")
+      ->check(CLI::IsMember({"auto", "always", "never"}))
+      ->capture_default_str();
   add_value(command, "--junit", a.junit, "FILE", "Write the results as JUnit XML to FILE");
   add_value(command, "--sarif", a.sarif, "FILE", "Write the root causes to FILE as a log of SARIF 2.1.0");
   add_value(command, "--markdown", a.markdown, "FILE", "Write overview and root causes to FILE as Markdown");
@@ -87,18 +90,20 @@ void add_output_options(CLI::App& command, OutputArguments& a) {
             "Explain a check, or all of them: its meaning, its bound and where the bound comes from");
 }
 
-void say_report(const verify::Report& report,
-                const std::function<std::string(const verify::Report&, bool)>& text_in_colour) {
-  if (!takes_escapes(STDOUT_FILENO) || std::getenv("NO_COLOR") != nullptr)
-    return say_text(stdout, text_in_colour(report, false));
+void say_report(const ReportOptions& options, const verify::Report& report,
+                const std::function<std::string(const verify::Report&, const verify::Screen&)>& text) {
+  const std::size_t width = screen_width(STDOUT_FILENO);
+  if (options.colour == "never" ||
+      (options.colour == "auto" && (!takes_escapes(STDOUT_FILENO) || std::getenv("NO_COLOR") != nullptr)))
+    return say_text(stdout, text(report, {false, width}));
   verify::Report shown = report;  // with no escape sequences but ours
-  const auto show = [](std::string& text) { text = verify::visible_text(text); };
-  for (std::string* text : {&shown.printed, &shown.incomplete, &shown.containment}) show(*text);
+  const auto show = [](std::string& words) { words = verify::visible_text(words); };
+  for (std::string* words : {&shown.printed, &shown.incomplete, &shown.containment}) show(*words);
   for (std::string& subject : shown.subjects) show(subject);
   for (auto& mesh : shown.meshes) show(mesh.name);
   for (verify::Result& r : shown.results)
-    for (std::string* text : {&r.subject, &r.mesh, &r.depths, &r.message}) show(*text);
-  std::fputs(text_in_colour(shown, true).c_str(), stdout);
+    for (std::string* words : {&r.subject, &r.mesh, &r.depths, &r.message}) show(*words);
+  std::fputs(text(shown, {true, width}).c_str(), stdout);
 }
 
 bool explained(const OutputArguments& a) {
@@ -108,11 +113,11 @@ bool explained(const OutputArguments& a) {
   for (const auto& e : verify::row_kinds()) {
     known += fmt::format(", {}", e.check);
     if (a.explain != "all" && verify::current_name(a.explain) != e.check) continue;
-    say("{}{}\n  meaning  {}\n  bound    {}\n  from     {}\n", found ? "\n" : "", e.check, e.meaning, e.bound,
-        e.source);
+    say_lines(fmt::format("{}{}\n  meaning  {}\n  bound    {}\n  from     {}\n", found ? "\n" : "", e.check,
+                          e.meaning, e.bound, e.source));
     found = true;
   }
-  if (found) say("\n{}\n{}", "In tables", verify::words_of_tables());
+  if (found) say_lines(fmt::format("\n{}\n{}", "In tables", verify::words_of_tables()));
   if (!found)
     throw data::ArgumentError(fmt::format("there is no check '{}'; there are: {}", a.explain, known));
   return true;

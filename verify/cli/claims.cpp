@@ -154,7 +154,10 @@ int claims(const ClaimsArguments& a) {
     return kSignalled + verify::interrupted();
   }
   progress.clear();
-  say("{}", a.json ? to_json(results) : to_table(results));
+  if (a.json)
+    say("{}", to_json(results));
+  else
+    say_lines(to_table(results));
   const bool held = std::all_of(results.begin(), results.end(), [](const ClaimResult& r) {
     return r.outcome == ClaimOutcome::kHeld || r.outcome == ClaimOutcome::kNotCheckable;
   });

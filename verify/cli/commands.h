@@ -49,6 +49,8 @@ template <class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   say_text(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
+/// To standard output, broken into lines as wide as the screen (verify/report/columns.h).
+void say_lines(const std::string& text);
 /// Where this program lies. Throws data::ArgumentError: there is no /proc to tell.
 std::filesystem::path program_folder();
 

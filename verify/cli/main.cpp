@@ -3,6 +3,7 @@
 #include <string>
 
 #include "verify/cli/commands.h"
+#include "verify/cli/help.h"
 #include "verify/cli/program.h"
 #include "verify/cli/prove_options.h"
 #include "verify/host/in_turns.h"
@@ -48,8 +49,8 @@ int run(int argc, char** argv) {
   CLI::App app{
       "limitcheck: is a tessellator of subdivision surfaces right, by how much is it not, and how fast is "
       "it?"};
+  show_examples(app);
   app.footer(
-      "First steps: limitcheck check mesh.obj; limitcheck audit mesh.obj; limitcheck COMMAND --help. "
       "Documentation: README.md, verify/subject/README.md, or share/doc/limitcheck where it is installed.\n"
       "Exit codes: 0 all held, 1 findings, 2 bad usage or input, 141 where nobody reads standard output any "
       "more.");

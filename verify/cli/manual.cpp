@@ -10,6 +10,7 @@
 
 #include "data/error.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/help.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -114,6 +115,8 @@ std::string section(const CLI::App& command, const std::string& common_footer) {
   if (command.get_help_ptr() == nullptr)
     return out + "A program of its own:\n" + bold("limitcheck " + command.get_name() + " --help") +
            "\ntells its options.\n";
+  for (const Example& e : examples_of(command.get_name()))
+    out += ".TP\n" + bold(std::string(e.line)) + "\n" + sentence(std::string(e.purpose));
   for (const CLI::Option* option : positionals(command))
     out += ".TP\n" + italic(option->get_name(true)) + "\n" + sentence(option->get_description());
   for (const std::string& group : command.get_groups()) {

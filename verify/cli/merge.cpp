@@ -79,8 +79,8 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
   const bool judged = settle(a.options, report);
   write_forms(a.options, report, level);
   verify::write_text(a.output, attested(verify::to_json(report, level, a.options.all_rows), plan));
-  say_report(report, [&](const verify::Report& shown, bool in_colour) {
-    return verify::to_overview(shown, verify::causes(shown), in_colour, "", level, "");
+  say_report(a.options, report, [&](const verify::Report& shown, const verify::Screen& screen) {
+    return verify::to_overview(shown, verify::causes(shown), screen, "", level, "");
   });
   return exit_code_of(report, judged);
 }

@@ -36,7 +36,7 @@ int print_list(const GenerateArguments& a) {
   const auto meshes = data::named_meshes();
   std::size_t width = 0;
   for (const auto& mesh : meshes) width = std::max(width, mesh.name.size());
-  for (const auto& mesh : meshes) say("{:<{}}  {}\n", mesh.name, width, mesh.description);
+  for (const auto& mesh : meshes) say_lines(fmt::format("{:<{}}  {}\n", mesh.name, width, mesh.description));
   return kHeld;
 }
 
@@ -80,7 +80,7 @@ std::map<int, std::int64_t> face_sizes(const data::io::PolygonSoup& soup) {
 }
 
 void line(const std::string& what, const std::string& text) {
-  say("{:<20}{}\n", what, text);
+  say_lines(fmt::format("{:<20}{}\n", what, text));
 }
 
 void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s) {
@@ -212,8 +212,9 @@ void print_faults(const std::string& file, const data::io::PolygonSoup& soup,
     line(what, fmt::format("{}{}, vertices and faces counted from {}, as the file does:", some.size(), why,
                            soup.first));
     for (std::size_t k = 0; k < std::min(some.size(), kMostListed); ++k)
-      say("  {}{}: {}: {}\n", file, some[k].line > 0 ? fmt::format(":{}", some[k].line) : "", some[k].code,
-          some[k].message);
+      say_lines(fmt::format("  {}{}: {}: {}\n", file,
+                            some[k].line > 0 ? fmt::format(":{}", some[k].line) : "", some[k].code,
+                            some[k].message));
     if (some.size() > kMostListed)
       say("  and {} more; limitcheck check {} --json has them all\n", some.size() - kMostListed, file);
   };

@@ -19,6 +19,8 @@
 #include <commit.h>  // made by the build (commit.cmake)
 #include "data/error.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/screen.h"
+#include "verify/report/columns.h"
 #include "verify/row/visible_text.h"
 #include "verify/subject/subject_error.h"
 
@@ -76,7 +78,7 @@ int after_output(int exit_code) {
 int exit_with(const CLI::App& app, const CLI::Error& error) {
   std::ostringstream out, err;
   const int code = app.exit(error, out, err);
-  say_text(stdout, out.str());
+  say_lines(out.str());
   say_text(stderr, err.str());
   return code;
 }
@@ -129,7 +131,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& exit_code) {
   // `limitcheck help COMMAND` is `limitcheck COMMAND --help`.
   std::vector<const char*> words(argv, argv + argc);
   if (argc == 3 && std::string_view(argv[1]) == "help" && std::string_view(argv[2]) == "tags") {
-    say("{}", kTags);
+    say_lines(kTags);
     return kHeld;
   }
   if (argc > 2 && std::string_view(argv[1]) == "help" && !is_command(app, argv[2])) {
@@ -176,6 +178,10 @@ void say_text(std::FILE* stream, const std::string& text) {
   if (std::fwrite(shown.data(), 1, shown.size(), stream) != shown.size() && stream == stdout &&
       output_error == 0)
     output_error = errno;
+}
+
+void say_lines(const std::string& text) {
+  say_text(stdout, verify::wrapped(text, screen_width(STDOUT_FILENO)));
 }
 
 fs::path program_folder() {

@@ -16,6 +16,7 @@
 #include "data/scheme.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/commands.h"
+#include "verify/cli/help.h"
 #include "verify/cli/program.h"
 #include "verify/cli/prove_options.h"
 #include "verify/cli/units.h"
@@ -171,6 +172,7 @@ int prove(const ProveRequest& request) {
 int main(int argc, char** argv) {
   using namespace limitcheck::cli;
   CLI::App app{"limitcheck: proofs that kernels compute the exact limit surface"};
+  show_examples(app);
   int exit_code = kHeld;
   add_prove(app, [&exit_code](const ProveRequest& request) { exit_code = prove(request); });
   return run_program(app, argc, argv, exit_code);

@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "verify/row/visible_text.h"
@@ -19,12 +21,7 @@
 namespace limitcheck::cli {
 namespace {
 
-constexpr std::size_t kBar = 24;
-
-std::size_t terminal_width(std::FILE* stream) {
-  winsize size{};
-  return ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
+constexpr std::size_t kBar = 24, kNarrow = 40;
 
 constexpr int kFatal[] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 constexpr std::size_t kFatals = std::size(kFatal);
@@ -46,6 +43,18 @@ void show_the_end(int signal) {
 }
 
 }  // namespace
+
+std::size_t screen_width(int fd) {
+  constexpr std::size_t kLeast = 40, kMost = 1000;
+  winsize size{};
+  if (ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return std::max<std::size_t>(size.ws_col, kLeast);
+  const char* columns = std::getenv("COLUMNS");
+  const std::string_view text = columns == nullptr ? "" : columns;
+  std::size_t width = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
+  if (error != std::errc() || end != text.data() + text.size()) return 0;
+  return std::clamp(width, kLeast, kMost);
+}
 
 bool takes_escapes(int fd) {
   const char* kind = std::getenv("TERM");
@@ -77,7 +86,7 @@ void Progress::show(std::size_t done, std::size_t total, const std::string& text
   std::string line =
       verify::visible_text(fmt::format("[{}{}] {}/{}{} {}", std::string(filled, '#'),
                                        std::string(kBar - filled, '.'), done, total, left, text));
-  line.resize(std::min(line.size(), terminal_width(stream_) - 1));
+  line.resize(std::min(line.size(), std::max<std::size_t>(screen_width(fileno(stream_)), kNarrow) - 1));
   fmt::print(stream_, "\r\033[K{}", line);
   std::fflush(stream_);
 }

@@ -10,6 +10,8 @@ namespace limitcheck::cli {
 
 /// Whether a file descriptor is a terminal that takes escape sequences: not one whose TERM is "dumb".
 bool takes_escapes(int fd);
+/// How many columns there are: those of the terminal, or what COLUMNS says; 0: any number, as in a file.
+std::size_t screen_width(int fd);
 
 /// Says on standard error what is being done now and how long it may still take: on a terminal in one line that is
 /// rewritten in place, elsewhere (a pipe, a log of CI) in a line every ten seconds. Not thread-safe.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Completion of limitcheck in bash. Commands, options and choices are read from the program's own --help, so there is no
+# Completion of limitcheck in bash; verify/package/_limitcheck and limitcheck.fish ask it, too. Commands, options and choices are read from the program's own --help, so there is no
 # second list of them.
 _limitcheck() {
   local program=${COMP_WORDS[0]} word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}
@@ -34,4 +34,11 @@ _limitcheck() {
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   # Nothing of ours: files, as `complete -o default` does.
 }
-complete -o default -F _limitcheck limitcheck
+# Run as a script it says what it would offer for the last of its arguments: zsh and fish ask it.
+if [[ ${BASH_SOURCE[0]} == "$0" ]]; then
+  COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
+  _limitcheck
+  ((${#COMPREPLY[@]} == 0)) || printf '%s\n' "${COMPREPLY[@]}"
+else
+  complete -o default -F _limitcheck limitcheck
+fi

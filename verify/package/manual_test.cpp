@@ -23,7 +23,9 @@ TEST_F(Manual, SaysWhatHelpSays) {
   for (const char* text :
        {".B limitcheck eval\n[\\fIoptions\\fR] \\fIMESH\\fR [\\fIFACE\\fR] [\\fIU\\fR] [\\fIV\\fR]\n",
         ".B limitcheck repair\n[\\fIoptions\\fR] \\fB\\-o\\fR \\fIFILE\\fR [\\fIMESH\\fR]\n",
-        ".SS limitcheck audit\nJudge a tessellator against the exact surface.\n.TP\n\\fISUBJECT\\fR\n",
+        ".SS limitcheck audit\nJudge a tessellator against the exact surface.\n.TP\n\\fBlimitcheck audit "
+        "./libmine.so\\fR\n",
+        ".TP\n\\fISUBJECT\\fR\n",
         ".TP\n\\fB\\-\\-precision\\fR \\fIfloat\\fR|\\fIdouble\\fR\nRound the control mesh",
         "(1 to 10000, default 16).\n", "\\fB\\-\\-colour\\fR, \\fB\\-\\-color\\fR", ".SS limitcheck bench\n",
         ".SH EXIT STATUS\n"})
@@ -76,6 +78,32 @@ TEST_F(Completion, OffersCommandsOptionsChoicesSubjectsAndMeshes) {
   EXPECT_EQ(offers("check cage.obj --triangulate ''"), (Offer{"fan", "shortest-diagonal"}));
   EXPECT_EQ(offers("audit --json ''"), Offer{});  // a file: bash's own
   EXPECT_EQ(offers("-").size(), 3U);
+}
+
+// The other shells ask bash, from where both are installed.
+TEST_F(Completion, IsTheSameInFishAndZsh) {
+  for (const char* folder :
+       {"bash-completion/completions", "fish/vendor_completions.d", "zsh/site-functions"})
+    fs::create_directories(folder_ / "share" / folder);
+  write("share/bash-completion/completions/limitcheck", contents_of(kHere / "limitcheck.bash"));
+  write("share/fish/vendor_completions.d/limitcheck.fish", contents_of(kHere / "limitcheck.fish"));
+  write("share/zsh/site-functions/_limitcheck", contents_of(kHere / "_limitcheck"));
+  const std::string path = "PATH='" + fs::path(LIMITCHECK_PROGRAM).parent_path().string() + "':$PATH ";
+  write("one.fish",
+        "source share/fish/vendor_completions.d/limitcheck.fish\ncomplete -C 'limitcheck audit --level '\n");
+  write("one.zsh",
+        "fpath=($PWD/share/zsh/site-functions $fpath)\nautoload -U _limitcheck\nautoload +X _limitcheck\n"
+        "compadd() { print -l -- ${(P)2} }\nwords=(limitcheck audit --level '')\nCURRENT=4\n_limitcheck\n");
+  int there = 0;
+  for (const char* words : {"fish --no-config one.fish", "zsh -f one.zsh"}) {
+    const Outcome o = shell(path + words);
+    if (o.code == 127) continue;
+    ++there;
+    for (const char* level : {"quick", "standard", "thorough"})
+      EXPECT_TRUE(says(o.out, level)) << words << o.err;
+    EXPECT_EQ(o.err, "") << words;
+  }
+  if (there == 0) GTEST_SKIP() << "neither shell is here";
 }
 
 }  // namespace

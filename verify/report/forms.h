@@ -12,18 +12,18 @@
 
 #include "verify/causes/causes.h"
 #include "verify/evidence/audit_case.h"
+#include "verify/report/columns.h"
 #include "verify/row/result.h"
 
 namespace limitcheck::verify {
 
 /// The report for a terminal: for each subject a line per check over all meshes (the worst mesh is shown),
 /// then the findings, each with its witness and the command that recomputes the expected value.
-///   colour  whether to use ANSI colours
-///   all     a line for each mesh instead of the worst one only
-std::string to_table(const Report& report, bool colour, bool all = false);
+///   all   a line for each mesh instead of the worst one only
+std::string to_table(const Report& report, const Screen& screen, bool all = false);
 
-/// The part of it that is about one subject, without the checks that nothing was looked at for.
-std::string check_lines(const Report& report, const std::string& subject, bool colour);
+/// The part of it that is about one subject; of checks that nothing was looked at for only why.
+std::string check_lines(const Report& report, const std::string& subject, const Screen& screen);
 
 // The report on one screen, and what it does not say: checks that looked at nothing.
 
@@ -39,8 +39,9 @@ const std::vector<CheckGroup>& check_groups();
 struct GroupVerdict {
   std::int64_t bad = 0, looked_at = 0;  // cases
   bool waived = false, stale = false, warning = false;
+  bool asked = false, supported = false;  // whether there are rows, and any that the subject supports
 
-  /// "held", "3/126", "waived", "stale", "-".
+  /// "held", "3/126", "waived", "stale"; where nothing was looked at "not asked", "unsupported" or "not run".
   std::string text() const;
 };
 GroupVerdict verdict_of(const Report& report, const std::string& subject, const CheckGroup& group);
@@ -63,7 +64,7 @@ std::string legend(bool plan);
 ///   level         of the audit, for the commands
 ///   full          where the rest is, in one sentence
 inline constexpr int kScreen = 50;
-std::string to_overview(const Report& report, const std::vector<Cause>& causes, bool colour,
+std::string to_overview(const Report& report, const std::vector<Cause>& causes, const Screen& screen,
                         const std::string& scheme_line, const std::string& level, const std::string& full);
 
 /// The causes in full: title, where to look, how often, what follows from it, the command.

@@ -25,21 +25,20 @@ const char* colour_of(const GroupVerdict& v) {
   return v.bad > 0 ? "31" : v.looked_at == 0 || v.waived || v.stale ? "2" : "32";
 }
 
-std::string matrix(const Report& report, bool colour) {
-  std::size_t widest = 7;
-  for (const std::string& s : report.subjects) widest = std::max(widest, s.size());
-  std::string out = fmt::format("{:<{}}", "subject", widest);
-  for (const CheckGroup& g : check_groups()) out += fmt::format(" {:>10}", g.title);
-  out += "\n";
+std::string matrix(const Report& report, const Screen& screen) {
+  std::vector<Column> columns{{"subject", 7}};
+  for (const CheckGroup& g : check_groups()) columns.push_back({std::string(g.title), 10, true});
+  std::vector<TableRow> rows;
   for (const std::string& subject : report.subjects) {
-    out += fmt::format("{:<{}}", subject, widest);
+    TableRow row;
+    row.cells.push_back({subject});
     for (const CheckGroup& g : check_groups()) {
       const GroupVerdict v = verdict_of(report, subject, g);
-      out += " " + coloured(fmt::format("{:>10}", v.text()), colour_of(v), colour);
+      row.cells.push_back({v.text(), colour_of(v)});
     }
-    out += "\n";
+    rows.push_back(std::move(row));
   }
-  return out;
+  return table_in_blocks(columns, rows, screen, 0);
 }
 
 std::string who(const Cause& cause) {
@@ -74,7 +73,8 @@ const std::vector<CheckGroup>& check_groups() {
 
 std::string GroupVerdict::text() const {
   if (bad > 0) return fmt::format("{}/{}", bad, looked_at);
-  return stale ? "stale" : waived ? "waived" : looked_at == 0 ? "-" : "held";
+  if (stale || waived || looked_at > 0) return stale ? "stale" : waived ? "waived" : "held";
+  return !asked ? "not asked" : supported ? "not run" : "unsupported";
 }
 
 GroupVerdict verdict_of(const Report& report, const std::string& subject, const CheckGroup& group) {
@@ -84,6 +84,8 @@ GroupVerdict verdict_of(const Report& report, const std::string& subject, const 
     if (r.subject != subject ||
         std::find(group.checks.begin(), group.checks.end(), r.check) == group.checks.end())
       continue;
+    v.asked = true;
+    v.supported = v.supported || r.status != Status::kNotSupported;
     if (looked_at(r)) looked.insert(case_of(r));
     if (is_bad(r)) bad.insert(case_of(r));
     v.waived = v.waived || r.status == Status::kWaived;
@@ -160,8 +162,9 @@ std::string summary(const Report& report) {
 
 std::string legend(bool plan) {
   return fmt::format(
-      "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; -: not looked at, the subject does not "
-      "do it.\n"
+      "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; unsupported: the subject does not do it; "
+      "not asked: --level or --checks leaves it out, the mesh has more than 200 faces, or no sharp edges to "
+      "ask for; not run: something before it failed.\n"
       "irregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; diagonal: "
       "of the mesh's bounding box.\n",
       plan ? "cases (a mesh at its depths)" : "meshes");
@@ -185,19 +188,19 @@ std::string changes_line(const Report& report) {
   return out;
 }
 
-std::string to_overview(const Report& report, const std::vector<Cause>& causes, bool colour,
+std::string to_overview(const Report& report, const std::vector<Cause>& causes, const Screen& screen,
                         const std::string& scheme_line, const std::string& level, const std::string& full) {
   std::string top = scheme_line + "\n" + header(report) + "\n";
   if (report.subjects.size() == 1)
-    top += check_lines(report, report.subjects.front(), colour);
+    top += check_lines(report, report.subjects.front(), screen);
   else
-    top += matrix(report, colour) + legend(report.depths == "plan");
-  top += waiver_lines(report);
-  std::string bottom = "\n" + changes_line(report) + summary(report) + full;
+    top += matrix(report, screen) + legend(report.depths == "plan");
+  top = wrapped(top + waiver_lines(report), screen.width);
+  const std::string bottom = wrapped("\n" + changes_line(report) + summary(report) + full, screen.width);
 
   std::string brief, long_form;
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    const std::string line = one_line(causes[k], k + 1, colour);
+    const std::string line = wrapped(one_line(causes[k], k + 1, screen.colour), screen.width, 10);
     brief += line;
     const std::string command = command_for(report, causes[k], level);
     long_form += line + (command.empty() ? "" : "          " + command + "\n");
@@ -206,8 +209,10 @@ std::string to_overview(const Report& report, const std::vector<Cause>& causes, 
   const bool all = lines(top) + lines(bottom) + lines(long_form) + 2 <= kScreen;
   std::string middle;
   if (!causes.empty())
-    middle = fmt::format("\n{} root cause{} of all findings, the gravest first{}\n", causes.size(),
-                         causes.size() == 1 ? "" : "s", all ? ", each with the command that shows it" : "") +
+    middle = wrapped(fmt::format("\n{} root cause{} of all findings, the gravest first{}\n", causes.size(),
+                                 causes.size() == 1 ? "" : "s",
+                                 all ? ", each with the command that shows it" : ""),
+                     screen.width) +
              (all ? long_form : brief);
   return top + middle + bottom;
 }

@@ -73,10 +73,8 @@ bool is_breakdown(Status status) {
   return status == Status::kCrash || status == Status::kTimeout || status == Status::kError;
 }
 
-std::string painted(Status status, bool colour) {
-  const auto& [verdict, rank, code] = words_of(status);
-  const std::string padded = fmt::format("{:<14}", verdict);
-  return colour ? fmt::format("\033[{}m{}\033[0m", code, padded) : padded;
+TableCell painted(Status status) {
+  return {words_of(status).verdict, words_of(status).colour};
 }
 
 std::string amount(const std::optional<double>& x) {
@@ -106,14 +104,21 @@ std::string where(const Report& report, const Result& r) {
   return mesh;
 }
 
-void add_line(std::string& out, const Report& report, const Result& r, std::int64_t bad, std::int64_t of,
-              const std::string& meshes, const std::string& depths, bool colour) {
+TableRow row_of(const Report& report, const Result& r, std::int64_t bad, std::int64_t of,
+                const std::string& meshes, const std::string& depths) {
   const bool has_worst = r.worst.has_value() || r.rms.has_value();
-  const std::string count = of > 0 ? fmt::format("{}/{}", bad, of) : "-";
-  out += fmt::format("  {:<25} {} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", r.check,
-                     painted(r.status, colour), meshes, count,
-                     has_worst ? (r.worst ? amount(r.worst) : "nan") : "-", has_worst ? amount(r.bound) : "-",
-                     has_worst ? amount(r.p99) : "-", r.unit, depths, where(report, r));
+  TableRow row{.weighty = is_bad(r)};
+  row.cells = {{r.check},
+               painted(r.status),
+               {meshes},
+               {of > 0 ? fmt::format("{}/{}", bad, of) : "-"},
+               {has_worst ? (r.worst ? amount(r.worst) : "nan") : "-"},
+               {has_worst ? amount(r.bound) : "-"},
+               {has_worst ? amount(r.p99) : "-"},
+               {r.unit}};
+  if (report.depths == "plan") row.cells.push_back({depths});
+  row.cells.push_back({where(report, r)});
+  return row;
 }
 
 // The commands that a message of a process that broke down contains, each on a line of its own, to be copied.
@@ -124,31 +129,32 @@ std::string in_lines(std::string message) {
   return message;
 }
 
-void add_finding(std::string& out, const Report& report, int number, const Line& line) {
+void add_finding(std::string& out, const Report& report, int number, const Line& line, std::size_t width) {
   const Result& r = *line.shown;
-  out += fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
+  std::string said = fmt::format("\n{:>3}. {} / {}: ", number, r.subject, r.check);
   if (is_breakdown(r.status)) {
-    out += fmt::format("{}: {}\n", case_name(report, r), in_lines(r.message));
+    out += said + fmt::format("{}: {}\n", case_name(report, r), in_lines(r.message));
     return;
   }
-  out += r.of > 0 ? fmt::format("{} of {}", r.bad, r.of) : fmt::format("{}", r.bad);
+  said += r.of > 0 ? fmt::format("{} of {}", r.bad, r.of) : fmt::format("{}", r.bad);
   if (!r.rms) {
-    out += r.unit.empty() ? "" : " " + r.unit;
+    said += r.unit.empty() ? "" : " " + r.unit;
   } else {
-    out += r.bound == 0 ? " differ" : fmt::format(" beyond {:.2e} {}", r.bound.value_or(0), r.unit);
-    out += r.worst ? fmt::format(", worst {:.3e} {}", *r.worst, r.unit) : ", worst not finite";
+    said += r.bound == 0 ? " differ" : fmt::format(" beyond {:.2e} {}", r.bound.value_or(0), r.unit);
+    said += r.worst ? fmt::format(", worst {:.3e} {}", *r.worst, r.unit) : ", worst not finite";
   }
-  out += fmt::format("\n     on {}", case_name(report, r));
+  said += fmt::format("\n     on {}", case_name(report, r));
   std::vector<std::string> others;
   for (const Result* other : line.results)
     if (other != &r && is_bad(*other)) others.push_back(case_name(report, *other));
   constexpr std::size_t kNamed = 5;
   const std::size_t more = others.size() - std::min(others.size(), kNamed);
   others.resize(others.size() - more);
-  if (!others.empty()) out += fmt::format("; also on {}", fmt::join(others, ", "));
-  if (more > 0) out += fmt::format(" and {} more", more);
-  out += "\n";
-  if (!r.message.empty()) out += fmt::format("     {}\n", in_lines(r.message));
+  if (!others.empty()) said += fmt::format("; also on {}", fmt::join(others, ", "));
+  if (more > 0) said += fmt::format(" and {} more", more);
+  said += "\n";
+  out += wrapped(said, width, 5);
+  if (!r.message.empty()) out += wrapped(fmt::format("     {}\n", in_lines(r.message)), width, 7);
   if (!r.witness) return;
   const Witness& w = *r.witness;
   std::vector<std::string> place;
@@ -167,31 +173,21 @@ void add_finding(std::string& out, const Report& report, int number, const Line&
 }
 
 /// All subjects side by side: the worst verdict of each check over the meshes.
-std::string matrix(const Report& report, bool colour) {
-  constexpr std::size_t kLeast = 14;  // a verdict, padded
-  std::vector<std::vector<Line>> columns;
-  std::vector<std::string> checks;
-  std::string out = fmt::format("\n  {:<25}", "check");
-  for (const std::string& subject : report.subjects) {
-    columns.push_back(lines_of(report, subject));
-    out += fmt::format(" {:<{}}", subject, kLeast);
-    for (const Line& line : columns.back())
-      if (std::find(checks.begin(), checks.end(), line.check) == checks.end()) checks.push_back(line.check);
-  }
-  out += "\n";
-  for (const std::string& check : checks) {
-    out += fmt::format("  {:<25}", check);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const auto line =
-          std::find_if(columns[k].begin(), columns[k].end(), [&](const Line& l) { return l.check == check; });
-      const std::size_t width = std::max(report.subjects[k].size(), kLeast);
-      const std::string cell =
-          line == columns[k].end() ? std::string(kLeast, ' ') : painted(line->shown->status, colour);
-      out += " " + cell + std::string(width - kLeast, ' ');
+std::string matrix(const Report& report, const Screen& screen) {
+  std::vector<Column> columns{{"check", 25}};
+  std::vector<TableRow> rows;
+  for (std::size_t k = 0; k < report.subjects.size(); ++k) {
+    columns.push_back({report.subjects[k], 14});
+    for (const Line& line : lines_of(report, report.subjects[k])) {
+      auto row = std::find_if(rows.begin(), rows.end(),
+                              [&](const TableRow& r) { return r.cells[0].text == line.check; });
+      if (row == rows.end()) row = rows.insert(rows.end(), TableRow{{TableCell{line.check}}});
+      row->cells.resize(k + 1);
+      row->cells.push_back(painted(line.shown->status));
     }
-    out += "\n";
   }
-  return out;
+  for (TableRow& row : rows) row.cells.resize(columns.size());
+  return "\n" + table_in_blocks(columns, rows, screen, 2);
 }
 
 // Why meshes were not tessellated at all though nothing is wrong, and how places were found: each sentence once.
@@ -208,19 +204,25 @@ std::string reasons(const Report& report, const std::string& subject) {
   return out;
 }
 
-std::string lines_table(const Report& report, const std::vector<Line>& lines, bool colour, bool all) {
+std::string lines_table(const Report& report, const std::vector<Line>& lines, const Screen& screen,
+                        bool all) {
   const bool plan = report.depths == "plan";
-  const auto depths = [&](std::span<const Result* const> results) {
-    return plan ? fmt::format("{:<9} ", depths_in_short(results)) : "";
-  };
-  std::string out = fmt::format("  {:<25} {:<14} {:>7}  {:>16}  {:>9} {:>9} {:>9}  {:<9} {}{}\n", "check",
-                                "verdict", plan ? "cases" : "meshes", "bad/looked at", "worst", "bound",
-                                "99 %", "unit", plan ? "depths    " : "", "where");
+  std::vector<Column> columns{{"check", 25},
+                              {"verdict", 14},
+                              {plan ? "cases" : "meshes", 7, true},
+                              {"bad/looked at", 16, true, 2},
+                              {"worst", 9, true, 2},
+                              {"bound", 9, true, 1, 5},
+                              {"99 %", 9, true, 1, 1},
+                              {"unit", 9, false, 2, 4}};
+  if (plan) columns.push_back({"depths", 9, false, 1, 2});
+  columns.push_back({"where", 0, false, 1, 3});
+  std::vector<TableRow> rows;
   for (const Line& line : lines) {
     if (all) {
       for (const Result* r : line.results)
-        add_line(out, report, *r, r->bad, r->of, r->status == Status::kHeld ? "1/1" : "0/1", depths({&r, 1}),
-                 colour);
+        rows.push_back(row_of(report, *r, r->bad, r->of, r->status == Status::kHeld ? "1/1" : "0/1",
+                              depths_in_short({&r, 1})));
       continue;
     }
     std::int64_t bad = 0, of = 0;
@@ -228,43 +230,56 @@ std::string lines_table(const Report& report, const std::vector<Line>& lines, bo
       bad += r->bad;
       of += r->of;
     }
-    add_line(out, report, *line.shown, bad, of,
-             fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()),
-             depths(line.results), colour);
+    rows.push_back(row_of(report, *line.shown, bad, of,
+                          fmt::format("{}/{}", line.looked_at - line.bad_meshes, line.results.size()),
+                          depths_in_short(line.results)));
   }
+  return table(std::move(columns), rows, screen, 2);
+}
+
+// Why checks looked at nothing: a line for each reason.
+std::string not_looked_at(const Report& report, const std::vector<Line>& lines) {
+  std::map<std::string, std::vector<std::string_view>> why;
+  for (const Line& line : lines)
+    if (line.looked_at == 0)
+      why[line.shown->status == Status::kNotSupported ? "not supported" : "not run"].push_back(line.check);
+  bool any = false;
+  std::vector<std::string_view> absent;
+  for (const CheckGroup& group : check_groups())
+    for (const std::string_view check : group.checks) {
+      const bool there =
+          std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.check == check; });
+      any = any || there;
+      // These rows are there only where they are needed.
+      if (!there && check != "refined-positions" && check != "recognised") absent.push_back(check);
+    }
+  if (any && !absent.empty() && report.depths != "file") why["not asked"] = absent;
+  std::string out;
+  for (const auto& [reason, checks] : why) out += fmt::format("  {}: {}\n", reason, fmt::join(checks, ", "));
   return out;
 }
 
 // What the words of the table mean.
 std::string words(const Report& report) {
   return fmt::format(
-      "{} a/b: held on a of b. bad/looked at: points, triangles or whatever the unit says, over all {}; "
-      "worst, bound and 99 % are\nthose of the worst one. warning: within the bound, and worth a look. -: "
-      "nothing to count or measure, or nothing was looked\nat. limitcheck audit --explain CHECK says what a "
+      "{0} a/b: held on a of b. bad/looked at: points, triangles or whatever the unit says, over all {0}; "
+      "worst, bound and 99 % are those of the worst one. warning: within the bound, and worth a look. -: "
+      "nothing to count or measure, or nothing was looked at. limitcheck audit --explain CHECK says what a "
       "check means and where its bound comes from.\n",
-      report.depths == "plan" ? "cases" : "meshes", report.depths == "plan" ? "cases" : "meshes");
+      report.depths == "plan" ? "cases" : "meshes");
 }
 
 }  // namespace
 
-std::string check_lines(const Report& report, const std::string& subject, bool colour) {
-  const std::vector<Line> lines = lines_of(report, subject);
-  const std::string why_not = reasons(report, subject);
-  if (!why_not.empty() &&
-      std::none_of(lines.begin(), lines.end(), [](const Line& l) { return l.looked_at > 0; }))
-    return subject + "\n" + why_not;
-  std::vector<Line> shown;  // without those that nothing was looked at for
-  std::string left_out;
-  for (const Line& line : lines)
-    if (line.looked_at > 0)
-      shown.push_back(line);
-    else
-      left_out += (left_out.empty() ? "" : ", ") + line.check;
-  return subject + "\n" + lines_table(report, shown, colour, false) +
-         (left_out.empty() ? "" : "  not looked at: " + left_out + "\n") + why_not;
+std::string check_lines(const Report& report, const std::string& subject, const Screen& screen) {
+  std::vector<Line> lines = lines_of(report, subject);
+  const std::string why_not = reasons(report, subject), not_looked = not_looked_at(report, lines);
+  std::erase_if(lines, [](const Line& l) { return l.looked_at == 0; });
+  if (lines.empty() && !why_not.empty()) return subject + "\n" + why_not;
+  return subject + "\n" + lines_table(report, lines, screen, false) + not_looked + why_not;
 }
 
-std::string to_table(const Report& report, bool colour, bool all) {
+std::string to_table(const Report& report, const Screen& screen, bool all) {
   const bool plan = report.depths == "plan";
   std::string out = header(report);
   std::vector<Line> findings;
@@ -277,27 +292,25 @@ std::string to_table(const Report& report, bool colour, bool all) {
       out += why_not;
       continue;
     }
-    out += lines_table(report, lines, colour, all);
+    out += lines_table(report, lines, screen, all);
     for (Line& line : lines)
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
     if (plan) out += fmt::format("  depths looked at: {}\n", depths_in_full(report, subject));
     out += why_not;
   }
-  out += "\n" + words(report);
-  out += waiver_lines(report);
+  out += "\n" + words(report) + waiver_lines(report);
   if (!findings.empty())
     out +=
-        "\n"
-        "Findings, each at its worst. (Expected values are those of the control mesh rounded to the "
+        "\nFindings, each at its worst. (Expected values are those of the control mesh rounded to the "
         "subject's precision.)\n";
-  for (std::size_t k = 0; k < findings.size(); ++k)
-    add_finding(out, report, static_cast<int>(k) + 1, findings[k]);
+  out = wrapped(out, screen.width);
+  for (std::size_t k = 0; k < findings.size(); ++k)  // as they are, with commands to be copied
+    add_finding(out, report, static_cast<int>(k) + 1, findings[k], screen.width);
 
-  if (report.subjects.size() > 1) out += matrix(report, colour);
+  if (report.subjects.size() > 1) out += matrix(report, screen);
 
   if (!report.printed.empty()) out += "\nPrinted by subjects:\n" + report.printed;
-  out += "\n" + changes_line(report) + summary(report);
-  return out;
+  return out + wrapped("\n" + changes_line(report) + summary(report), screen.width);
 }
 
 }  // namespace limitcheck::verify

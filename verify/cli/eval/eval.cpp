@@ -163,9 +163,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       "Curvatures: K is positive where the surface is like a ball, negative where it is like a saddle. H, "
       "the mean of the "
       "two principal curvatures, is positive where the surface bends away from its normal: on a ball seen "
-      "from outside.\n\n"
-      "  limitcheck eval icosahedron 0 1/3 1/3 --digits 40\n"
-      "  limitcheck eval pawn --points points.csv --derivatives 2 > surface.csv");
+      "from outside.");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

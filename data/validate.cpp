@@ -428,7 +428,10 @@ std::string_view code(MeshFault fault) {
 std::vector<MeshFinding> validate_counts(std::int64_t vertices, std::int64_t faces, std::int64_t corners) {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (vertices == 0 || faces == 0) {
-    return {{MeshFault::kEmpty, {}, fmt::format("{} vertices and {} faces", vertices, faces)}};
+    return {{MeshFault::kEmpty,
+             {},
+             faces > 0 || vertices == 0 ? fmt::format("{} vertices and {} faces", vertices, faces)
+                                        : fmt::format("a point cloud: {} vertices and no faces", vertices)}};
   }
   if (vertices > most || corners > most) {
     return {

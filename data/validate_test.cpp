@@ -56,7 +56,7 @@ TEST(Validate, EachFaultIsNamedWithItsElementsAndNothingElseIs) {
   };
   const std::vector<Case> cases{
       {{}, kEmpty, {}, "0 vertices and 0 faces"},
-      {mesh_of(3, {}), kEmpty, {}, "3 vertices and 0 faces"},
+      {mesh_of(3, {}), kEmpty, {}, "a point cloud: 3 vertices and no faces"},
       {mesh_of(4, {{0, 1, 2}, {2, 1, 3}, {1, 0, 4}}),
        kIndexOutOfRange,
        {2, 4},

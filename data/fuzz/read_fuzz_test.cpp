@@ -26,6 +26,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   } catch (const InputError&) {
     return 0;
   }
+  // A mesh of triangles may say that it is meant for Catmull-Clark's scheme, which other files cannot.
+  if (FileFormat::LIMITCHECK_FUZZ_FORMAT == FileFormat::kUsda) return 0;
   if (!validate(mesh).empty()) std::abort();
   // 10 and more are one sharpness, and written as 10.
   for (SharpEdge& e : mesh.sharpness.edges) e.sharpness = std::min(e.sharpness, 10.F);

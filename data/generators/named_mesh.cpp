@@ -19,6 +19,7 @@
 #include "data/generators/sharp_meshes.h"
 #include "data/generators/star_meshes.h"
 #include "data/generators/surgery.h"
+#include "data/io/gltf.h"
 #include "data/io/polygon_soup.h"
 #include "data/shapes.h"
 #include "data/summary.h"
@@ -354,8 +355,9 @@ OpenedMesh open_mesh(const std::string& file_or_name, const ReadOptions& options
   if (!std::filesystem::exists(file, ignored) &&
       (before.find("star:") != std::string::npos || (!file.has_extension() && !file.has_parent_path())))
     return open_named_mesh(file_or_name, options);
-  io::Examination found = io::require_valid(io::read_soup(file), file_or_name, options);
-  return {std::move(found.mesh), found.cut, found.left_out, std::move(found.notes)};
+  const io::PolygonSoup soup = io::read_control_soup(file);
+  io::Examination found = io::require_valid(soup, file_or_name, options);
+  return {std::move(found.mesh), found.cut, found.left_out, std::move(found.notes), soup.scheme};
 }
 
 std::vector<NamedMesh> named_meshes() {

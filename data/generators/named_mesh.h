@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct OpenedMesh {
   ControlMesh mesh;
   std::int64_t cut = 0, left_out = 0;
   std::vector<std::string> notes = {};
+  std::optional<Scheme> scheme = {};  // that the file says it is meant for
 };
 
 /// What a user may write where a mesh is expected: an existing file is read, anything else is a

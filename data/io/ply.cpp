@@ -233,6 +233,7 @@ class PlyReader {
     for (const std::string_view needed : {"vertex", "face"}) {
       const auto named =
           std::count_if(elements_.begin(), elements_.end(), [&](auto& e) { return e.name == needed; });
+      if (named == 0 && needed == "face") continue;  // a cloud of points
       if (named != 1)
         scanner_.syntax_error(fmt::format("{} elements are called \"{}\", not one", named, needed));
     }

@@ -113,8 +113,8 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
   Examination result;
   const std::size_t polygons = soup.polygon_end.size();
   const bool keep = options.polygons == Triangulation::kKeep;
-  result.scheme =
-      options.scheme.value_or(keep && has_larger_polygons(soup) ? Scheme::kCatmullClark : Scheme::kLoop);
+  const Scheme natural = keep && has_larger_polygons(soup) ? Scheme::kCatmullClark : Scheme::kLoop;
+  result.scheme = options.scheme.value_or(keep ? soup.scheme.value_or(natural) : natural);
   const auto faces = static_cast<std::int64_t>(polygons),
              corners = static_cast<std::int64_t>(soup.corners.size());
   const auto too_many = validate_counts(static_cast<std::int64_t>(soup.positions.size()), faces,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,7 @@ struct PolygonSoup {
   };
   std::vector<SharpTag> sharp;
   Sharpness choices;
+  std::optional<Scheme> scheme;  // that the file says it is meant for
   // Polygons that are not shown.
   struct Hole {
     std::int64_t polygon, line;
@@ -54,6 +56,7 @@ PolygonSoup read_obj(std::string_view content, const std::string& name);
 PolygonSoup read_off(std::string_view content, const std::string& name);
 PolygonSoup read_ply(std::string_view content, const std::string& name);
 PolygonSoup read_stl(std::string_view content, const std::string& name);
+PolygonSoup read_usda(std::string_view content, const std::string& name);
 
 /// A file as it is, with nothing checked but its syntax. The extension says the format. Throws InputError
 /// with a FILE_ code.
@@ -72,7 +75,7 @@ struct Examination {
   ControlMesh mesh;           // without the polygons that are at fault by themselves
   std::int64_t cut = 0;       // so many polygons became triangles
   std::int64_t left_out = 0;  // so many vertices that no face names, if the options say so
-  // What the mesh was validated for: as asked; else as data/scheme.h chooses, by all polygons of the file.
+  // What the mesh was validated for: as asked; else as the file says; else as data/scheme.h chooses, by all polygons.
   Scheme scheme = Scheme::kLoop;
   std::vector<SoupFault> faults;   // polygons in file order, then as data/validate.h orders them
   std::vector<std::string> notes;  // what was read otherwise than one may expect, a sentence each

@@ -30,6 +30,8 @@ io::PolygonSoup parse(std::string_view content, FileFormat format, const std::st
       return io::read_ply(content, name);
     case FileFormat::kStl:
       return io::read_stl(content, name);
+    case FileFormat::kUsda:
+      return io::read_usda(content, name);
   }
   return {};
 }
@@ -44,8 +46,9 @@ FileFormat io::format_of(const std::filesystem::path& file) {
   if (extension == ".off") return FileFormat::kOff;
   if (extension == ".ply") return FileFormat::kPly;
   if (extension == ".stl") return FileFormat::kStl;
+  if (extension == ".usda") return FileFormat::kUsda;
   throw InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,
-                   "the name does not end in .obj, .off, .ply or .stl");
+                   "the name does not end in .obj, .off, .ply, .stl or .usda");
 }
 
 std::string io::whole_content(const std::filesystem::path& file) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Control meshes from files: OBJ, OFF, PLY, STL.
+// Control meshes from files: OBJ, OFF, PLY, STL, USD as text.
 //
 // Codes of InputError beside those of data/validate.h:
 //   FILE_CANNOT_OPEN      absent, unreadable, or not a file
 //   FILE_TOO_LARGE        more than 4 GiB
-//   FILE_UNKNOWN_FORMAT   neither .obj, .off, .ply nor .stl
+//   FILE_UNKNOWN_FORMAT   none of .obj, .off, .ply, .stl, .usda
 //   FILE_UNSUPPORTED      a part of the format that this program does not read, and that cannot be ignored
 //   FILE_SYNTAX           not of the form the format prescribes
 //   FILE_TRUNCATED        ends before what it announced
@@ -28,14 +28,14 @@ namespace limitcheck::data {
 struct ReadOptions {
   Triangulation polygons = Triangulation::kKeep;
   /// The scheme that the mesh is validated for, after triangulation; by default the one that it is meant for,
-  /// natural_scheme().
+  /// as the file says or natural_scheme().
   std::optional<Scheme> scheme{};
   /// Vertices that no face names are left out, and refuse no file.
   bool leave_out_unused = false;
 };
 
 /// The format of a file.
-enum class FileFormat { kObj, kOff, kPly, kStl };
+enum class FileFormat { kObj, kOff, kPly, kStl, kUsda };
 
 /// Reads and validates a file. Its extension says its format.
 ///   vertices   in file order. STL has none: equal positions (-0 = 0) become one vertex, in the order seen

@@ -130,6 +130,8 @@ std::string mesh_content(const ControlMesh& mesh, FileFormat format, const Write
       break;
     case FileFormat::kStl:
       throw InputError("FILE_UNSUPPORTED", "", 0, "STL is read, not written: it has no vertices");
+    case FileFormat::kUsda:
+      throw InputError("FILE_UNSUPPORTED", "", 0, "USD is read, not written: OBJ has a place for all of it");
   }
   return text;
 }

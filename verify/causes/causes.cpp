@@ -296,7 +296,6 @@ std::vector<Cause> causes(const Report& report) {
 
 std::string command_for(const Report& report, const Cause& cause, const std::string& level) {
   const Result& r = report.results[cause.example];
-  if (report.depths == "file") return "";
   if (const std::string command = difference_command(r); !command.empty()) return command;
   return audit_command(r, level) + " --details";
 }

@@ -206,12 +206,16 @@ TEST(Causes, CoverEveryRedRowOfRealSubjects) {
 
 TEST(Overview, HasEveryCheckOnceAndCountsCases) {
   std::set<std::string_view> seen;
-  for (const CheckGroup& g : check_groups())
-    for (const std::string_view check : g.checks) EXPECT_TRUE(seen.insert(check).second) << check;
+  for (const char* depths : {"uniform", "file"}) {
+    Report of;
+    of.depths = depths;
+    for (const CheckGroup& g : check_groups(of))
+      for (const std::string_view check : g.checks) EXPECT_TRUE(seen.insert(check).second) << check;
+  }
   Report report = report_of({red("s", "a", "positions", 1), red("s", "b", "positions", 1)});
   report.results[1].status = Status::kHeld;
-  EXPECT_EQ(verdict_of(report, "s", check_groups()[2]).text(), "1/2");
-  EXPECT_EQ(verdict_of(report, "s", check_groups()[3]).text(), "-");
+  EXPECT_EQ(verdict_of(report, "s", check_groups(report)[2]).text(), "1/2");
+  EXPECT_EQ(verdict_of(report, "s", check_groups(report)[3]).text(), "not asked");
 }
 
 TEST(Baseline, TellsNewFromWorseFromGone) {

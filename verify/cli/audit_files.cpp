@@ -22,6 +22,7 @@
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/row/visible_text.h"
+#include "verify/subject/shell_word.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -34,6 +35,19 @@ nlohmann::json plan_of(const FilesArguments& files, const std::vector<std::strin
           {"meshes", nlohmann::json::array({{files.control, file_digest(files.control)}})},
           {"provenance", file_digest(files.provenance)},
           {"tolerance", files.options.tolerance}};
+}
+
+// What was asked besides the files, as the command line has it.
+std::string options_of(const FilesArguments& files) {
+  const verify::FilesOptions standard, &o = files.options;
+  std::string text;
+  if (o.tolerance != standard.tolerance) text += fmt::format(" --tolerance {}", o.tolerance);
+  if (o.fit != standard.fit) text += o.fit == verify::Fit::kScale ? " --fit scale" : " --fit";
+  if (!files.provenance.empty()) text += " --provenance " + verify::shell_word(files.provenance);
+  if (o.hausdorff) text += fmt::format(" --max-deviation {}", *o.hausdorff);
+  if (!o.measures_hausdorff) text += " --no-hausdorff";
+  if (o.needs_normals) text += " --normals";
+  return text;
 }
 
 // The files that are named and those of folders, in the order of their names, each once.
@@ -151,6 +165,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
                             });
     for (verify::Result& r : audit.results) {
       r.triangulated = cut;
+      r.file_options = options_of(files);
       report.results.push_back(std::move(r));
     }
     for (const std::string& note : audit.notes) about += "\n" + note;

@@ -77,7 +77,8 @@ TEST_F(Merge, OfExhaustiveAuditsNamesTheNeighbourhoodThatIsWrong) {
   EXPECT_EQ(wrong["looked_at"], wrong["neighbourhoods"]);
   for (const json& star : wrong["examples"]) EXPECT_TRUE(says(star.get<std::string>(), "w=.JJ")) << star;
   const Outcome right = run("audit row-stream --exhaustive 3 --json right.json", 0);
-  for (const json& scheme : json::parse(read("right.json"))["exhaustive"]) {
+  const json of_right = json_in("right.json");
+  for (const json& scheme : of_right["exhaustive"]) {
     EXPECT_TRUE(scheme["right"].get<bool>());
     EXPECT_TRUE(says(right.out, "right on every neighbourhood up to valence 3: " +
                                     std::to_string(scheme["neighbourhoods"].get<int>())));
@@ -220,7 +221,8 @@ TEST_F(Merge, ReceiptsOfPartsAddUpAndMayBeMissing) {
 
 TEST_F(Merge, AReceiptOutlivesAKill) {
   const std::string all =
-      "audit naive octahedron tetrahedron bumpy:4000 --isolate --depth 5 --level quick --json r.json ";
+      "audit naive octahedron tetrahedron bumpy:4000 --isolate --timeout 600 --depth 5 --level quick --json "
+      "r.json ";
   (void)signalled(all, "[ \"$(wc -l < r.jsonl)\" = 3 ]", "KILL");
   std::istringstream lines(read("r.jsonl"));
   std::string line, old;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "data/generators/named_mesh.h"
+#include "data/io/gltf.h"
 #include "data/io/polygon_soup.h"
 #include "data/io/text_scanner.h"
 #include "data/io/write.h"
@@ -232,16 +233,20 @@ struct CheckArguments {
 };
 
 int check(const CheckArguments& a) {
-  const data::io::PolygonSoup soup = data::io::read_soup(a.file);
+  const data::io::PolygonSoup soup = data::io::read_control_soup(a.file);
   const data::io::Examination found = data::io::examine(soup, a.mesh);
   const data::MeshSummary summary = data::summarise(found.mesh);
-  const MeshScheme chosen{found.scheme, found.cut};
+  const MeshScheme chosen{found.scheme, found.cut, soup.scheme == found.scheme && !a.mesh.scheme};
   if (a.json) {
     say("{}", dumped(to_json(a.file, chosen, soup, found, summary), 2));
   } else {
-    say("{}\n", scheme_line({chosen}, a.mesh));
-    print_summary(soup, summary);
-    print_sharpness(found.mesh.sharpness);
+    if (soup.polygon_end.empty() && !soup.positions.empty()) {
+      line("point cloud", fmt::format("{} vertices and no faces", soup.positions.size()));
+    } else {
+      say("{}\n", scheme_line({chosen}, a.mesh));
+      print_summary(soup, summary);
+      print_sharpness(found.mesh.sharpness);
+    }
     for (const std::string& note : found.notes) line("note", note);
     print_faults(a.file, soup, found.faults);
   }
@@ -272,7 +277,7 @@ void take_distance(RepairArguments& a) {
 }
 
 int repair(const RepairArguments& a) {
-  const verify::Repaired repaired = verify::repair(data::io::read_soup(a.file), a.options);
+  const verify::Repaired repaired = verify::repair(data::io::read_control_soup(a.file), a.options);
   const data::io::Examination mesh = data::io::examine(repaired.soup, a.mesh);
   data::write_mesh(a.output, mesh.mesh);
   say("{}\n", scheme_line({{mesh.scheme, mesh.cut}}, a.mesh));
@@ -307,7 +312,7 @@ void add_check(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand(
       "check", "List everything that is wrong with a control mesh, and what it consists of");
-  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file")->required();
+  command->add_option("MESH", a->file, "An OBJ, OFF, PLY, STL, USD (.usda) or glTF file")->required();
   add_mesh_options(*command, a->mesh);
   command->add_flag("--json", a->json, "One JSON document on standard output in place of the text");
   command->footer(
@@ -322,7 +327,7 @@ void add_repair(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
       "repair", "Turn a mesh into one that can be audited: limitcheck repair scan.obj -o cage.obj");
-  command->add_option("MESH", a->file, "An OBJ, OFF, PLY or STL file; it must be named");
+  command->add_option("MESH", a->file, "An OBJ, OFF, PLY, STL, USD (.usda) or glTF file; it must be named");
   command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
       ->required()
       ->type_name("FILE");

@@ -372,6 +372,26 @@ TEST_F(Scheme, WhatIsNoManifoldOnceItIsCutIsRefused) {
   EXPECT_TRUE(says(o.err, "edge 1–3 has 4 faces (1, 1, 2, 2)"));
 }
 
+TEST_F(CheckCommand, APointCloudIsCalledOne) {
+  write("cloud.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+        "z\nend_header\n0 0 0\n");
+  write("cloud.obj", "v 0 0 0\n");
+  for (const std::string file : {"cloud.ply", "cloud.obj"}) {
+    const Outcome o = run("check " + file, 1);
+    EXPECT_TRUE(says(o.out, "MESH_EMPTY: a point cloud: 1 vertices and no faces"));
+    EXPECT_FALSE(says(o.out, "closed"));
+  }
+}
+
+// Which has a vertex for each normal: without them being one there would be a seam.
+TEST_F(CheckCommand, AControlMeshMayBeGltf) {
+  ASSERT_EQ(run("tessellate octahedron --depth 1 --no-cull -o cage.glb").code, 0);
+  EXPECT_TRUE(says(run("check cage.glb", 0).out, "none: the mesh is closed"));
+  EXPECT_EQ(run("audit naive cage.glb --depth 1 --level quick").code, 0);
+  EXPECT_EQ(run("repair cage.glb -o cage.obj").code, 0);
+}
+
 // Each line that `help tags` shows is read, and check says so where it is an edge or a vertex.
 TEST_F(CheckCommand, TheTagsOfTheHelpAreReadAndCounted) {
   const std::string help = run("help tags", 0).out;

@@ -21,7 +21,9 @@ std::int64_t polygons(const data::ControlMesh& mesh) {
 
 OpenedMesh taken(const std::string& name, data::OpenedMesh opened, const data::ReadOptions& options) {
   OpenedMesh result{std::move(opened.mesh), {}};
-  result.chosen = {options.scheme.value_or(data::natural_scheme(result.mesh)), opened.cut};
+  const bool declared = !options.scheme && opened.scheme && opened.cut == 0;
+  result.chosen = {declared ? *opened.scheme : options.scheme.value_or(data::natural_scheme(result.mesh)),
+                   opened.cut, declared};
   if (result.chosen.scheme == data::Scheme::kLoop && !result.mesh.faces.are_triangles())
     throw data::ArgumentError(
         fmt::format("{}: {} of {} faces are no triangles, which Loop's scheme needs. Either leave out "
@@ -95,11 +97,14 @@ std::string scheme_line(const std::vector<MeshScheme>& meshes, const data::ReadO
     return fmt::format("scheme: loop ({} of {} meshes, whose faces are all triangles), catmull-clark ({})",
                        loop, meshes.size(), catmull_clark);
   const std::string name(name_of(loop > 0 ? data::Scheme::kLoop : data::Scheme::kCatmullClark));
-  const std::string how = cut > 0          ? fmt::format("--triangulate {} cut {} face{} into triangles",
-                                                         word(options.polygons), cut, cut == 1 ? "" : "s")
-                          : options.scheme ? "--scheme"
-                          : loop > 0       ? "all faces are triangles"
-                                           : "not all faces are triangles";
+  const std::string how =
+      cut > 0 ? fmt::format("--triangulate {} cut {} face{} into triangles", word(options.polygons), cut,
+                            cut == 1 ? "" : "s")
+      : options.scheme ? "--scheme"
+      : std::any_of(meshes.begin(), meshes.end(), [](const MeshScheme& m) { return m.declared; })
+          ? "as the file says"
+      : loop > 0 ? "all faces are triangles"
+                 : "not all faces are triangles";
   return fmt::format("scheme: {} ({})", name, how);
 }
 

@@ -27,7 +27,8 @@ data::Triangulation triangulation(const std::string& word);
 /// Which scheme a mesh was opened for, and at what price.
 struct MeshScheme {
   data::Scheme scheme = data::Scheme::kLoop;
-  std::int64_t cut = 0;  // so many faces were cut into triangles
+  std::int64_t cut = 0;   // so many faces were cut into triangles
+  bool declared = false;  // by the file
 };
 struct OpenedMesh {
   data::ControlMesh mesh;

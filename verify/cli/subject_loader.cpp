@@ -17,6 +17,7 @@
 #include "verify/host/host.h"
 #include "verify/host/isolation/launcher.h"
 #include "verify/subject/registry.h"
+#include "verify/subject/shell_word.h"
 
 namespace limitcheck::cli {
 namespace {

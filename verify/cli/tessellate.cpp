@@ -243,7 +243,8 @@ void add_tessellate(CLI::App& app, int& exit_code) {
       "Tessellate a control mesh: limitcheck tessellate bumpy:800 -o out.glb --camera 0,0,4:0,0,0");
   auto a = std::make_shared<TessellateArguments>();
   command
-      ->add_option("MESH", a->mesh, "A file (OBJ, OFF, PLY, STL) or a name (see limitcheck generate --list)")
+      ->add_option("MESH", a->mesh,
+                   "A file (OBJ, OFF, PLY, STL, USD, glTF) or a name (see limitcheck generate --list)")
       ->required();
   add_mesh_options(*command, a->scheme);
   add_value(*command, "-o,--output", a->output, "FILE",

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Fuzzes every target for SECONDS (default 150) from the seeds that are kept: bash verify/fuzz/run.sh [SECONDS [TARGET...]]
-# Targets: read_obj read_off read_ply read_stl protocol waivers provenance gltf repair tags parts file_audit difference (default: all).
+# Targets: read_obj read_off read_ply read_stl read_usda protocol waivers provenance gltf repair tags parts file_audit difference (default: all).
 # Seeds and dictionaries: data/wellformed, data/malformed and data/fuzz for the readers, verify/fuzz for the others.
 # What it learns stays in build/fuzz/corpus; a finding is written to build/fuzz/findings and makes the exit code 1.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:-150}
 targets=("${@:2}")
-[[ ${#targets[@]} -gt 0 ]] || targets=(read_obj read_off read_ply read_stl protocol waivers provenance gltf repair tags parts file_audit difference)
+[[ ${#targets[@]} -gt 0 ]] || targets=(read_obj read_off read_ply read_stl read_usda protocol waivers provenance gltf repair tags parts file_audit difference)
 
 mkdir -p build/fuzz/findings
 { cmake --preset fuzz && cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"; } >build/fuzz/build.log 2>&1 ||

@@ -32,8 +32,8 @@ struct CheckGroup {
   std::string_view title;
   std::vector<std::string_view> checks;
 };
-/// As the table of rows has them (row/rows.h).
-const std::vector<CheckGroup>& check_groups();
+/// As the table of rows has them (row/rows.h): of finished files, or of subjects.
+const std::vector<CheckGroup>& check_groups(const Report& report);
 
 /// How the rows of one subject in one group came out.
 struct GroupVerdict {

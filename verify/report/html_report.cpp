@@ -78,10 +78,10 @@ std::string to_html(const Report& report, const std::vector<Cause>& causes,
             {"causes", Json::array()},
             {"first", kFirstDecade},
             {"errors", errors(report)}};
-  for (const CheckGroup& g : check_groups()) data["groups"].push_back(g.title);
+  for (const CheckGroup& g : check_groups(report)) data["groups"].push_back(g.title);
   for (const std::string& subject : report.subjects) {
     Json row = Json::array();
-    for (const CheckGroup& g : check_groups()) row.push_back(verdict_of(report, subject, g).text());
+    for (const CheckGroup& g : check_groups(report)) row.push_back(verdict_of(report, subject, g).text());
     data["matrix"].push_back(std::move(row));
   }
   for (std::size_t k = 0; k < causes.size(); ++k) {

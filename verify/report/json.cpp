@@ -77,8 +77,8 @@ void visit_fields(Is<Receipt> auto& row, Visit&& visit) {
 template <class Visit>
 void visit_fields(Is<Result> auto& row, Visit&& visit) {
   auto& [subject, mesh, check, depth, depths, sample, precision, scheme, cut, weights, status, bad, of, worst,
-         bound, rms, p99, unit, absolute, ulps, ill, witness, message, accepted, not_finite, waiver, places,
-         decades, seconds, recognised, origin] = row;
+         bound, rms, p99, unit, absolute, ulps, ill, witness, message, accepted, not_finite, file_options,
+         waiver, places, decades, seconds, recognised, origin] = row;
   visit_each(
       visit,
       {"subject",    "mesh",    "depth",   "depths",         "sample",     "scheme",          "triangulated",
@@ -87,7 +87,7 @@ void visit_fields(Is<Result> auto& row, Visit&& visit) {
        "recognised", "seconds", "message", "witness",        "origin"},
       subject, mesh, depth, depths, sample, scheme, cut, precision, check, status, bad, of, worst, bound,
       unit, rms, p99, absolute, ulps, ill, places, recognised, seconds, message, witness, origin);
-  visit_each(visit, {"", "", "", "", ""}, weights, decades, accepted, not_finite, waiver);
+  visit_each(visit, {"", "", "", "", "", ""}, weights, decades, accepted, not_finite, waiver, file_options);
 }
 
 using Ordered = nlohmann::ordered_json;

@@ -27,12 +27,12 @@ const char* colour_of(const GroupVerdict& v) {
 
 std::string matrix(const Report& report, const Screen& screen) {
   std::vector<Column> columns{{"subject", 7}};
-  for (const CheckGroup& g : check_groups()) columns.push_back({std::string(g.title), 10, true});
+  for (const CheckGroup& g : check_groups(report)) columns.push_back({std::string(g.title), 10, true});
   std::vector<TableRow> rows;
   for (const std::string& subject : report.subjects) {
     TableRow row;
     row.cells.push_back({subject});
-    for (const CheckGroup& g : check_groups()) {
+    for (const CheckGroup& g : check_groups(report)) {
       const GroupVerdict v = verdict_of(report, subject, g);
       row.cells.push_back({v.text(), colour_of(v)});
     }
@@ -56,19 +56,20 @@ std::string one_line(const Cause& cause, std::size_t number, bool colour) {
 
 }  // namespace
 
-const std::vector<CheckGroup>& check_groups() {
-  static const std::vector<CheckGroup> groups = [] {
+const std::vector<CheckGroup>& check_groups(const Report& report) {
+  const auto of = [](bool files) {
     std::vector<CheckGroup> all;
     for (const RowKind& row : row_kinds()) {
-      if (row.group.empty()) continue;
+      if (row.group.empty() || row.check.starts_with("file-") != files) continue;
       auto group =
           std::find_if(all.begin(), all.end(), [&](const CheckGroup& g) { return g.title == row.group; });
       if (group == all.end()) group = all.insert(all.end(), {row.group, {}});
       group->checks.push_back(row.check);
     }
     return all;
-  }();
-  return groups;
+  };
+  static const std::vector<CheckGroup> subjects = of(false), files = of(true);
+  return report.depths == "file" ? files : subjects;
 }
 
 std::string GroupVerdict::text() const {
@@ -117,7 +118,7 @@ std::string header(const Report& report) {
     out += fmt::format("subjects in processes of their own: {}\n", report.containment);
   if (report.left_out.empty()) return out;
   std::vector<std::string_view> kept;
-  for (const CheckGroup& g : check_groups())
+  for (const CheckGroup& g : check_groups(report))
     for (const std::string_view check : g.checks)
       if (std::find(report.left_out.begin(), report.left_out.end(), check) == report.left_out.end())
         kept.push_back(check);

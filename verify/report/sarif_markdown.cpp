@@ -94,7 +94,7 @@ std::string to_sarif(const Report& report, const std::vector<Cause>& causes, con
 std::string to_markdown(const Report& report, const std::vector<Cause>& causes, const std::string& level) {
   std::string out = "# " + markdown_text(header(report)) + "\n\n| subject |", line = "\n|---|";
   std::vector<const CheckGroup*> groups;
-  for (const CheckGroup& g : check_groups())
+  for (const CheckGroup& g : check_groups(report))
     if (std::any_of(report.subjects.begin(), report.subjects.end(),
                     [&](const std::string& s) { return verdict_of(report, s, g).looked_at > 0; }))
       groups.push_back(&g);

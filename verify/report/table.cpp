@@ -245,7 +245,7 @@ std::string not_looked_at(const Report& report, const std::vector<Line>& lines) 
       why[line.shown->status == Status::kNotSupported ? "not supported" : "not run"].push_back(line.check);
   bool any = false;
   std::vector<std::string_view> absent;
-  for (const CheckGroup& group : check_groups())
+  for (const CheckGroup& group : check_groups(report))
     for (const std::string_view check : group.checks) {
       const bool there =
           std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.check == check; });

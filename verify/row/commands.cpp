@@ -10,20 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "verify/subject/shell_word.h"
+
 namespace limitcheck::verify {
 namespace {
 
 bool uniform(const Result& r) {
   return r.depths.empty() || r.depths == "uniform";
-}
-
-// A word for the shell.
-std::string quoted(const std::string& text) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
-  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 // So that the mesh is opened again as it was: a mesh of triangles is taken for Loop's unless it is said
@@ -37,7 +30,7 @@ std::string mesh_options(const Result& result) {
 
 std::string depth_options(const Result& result) {
   if (result.depths.empty() || result.depths == "uniform") return "";
-  return fmt::format(" --depths {}", quoted(result.depths));
+  return fmt::format(" --depths {}", shell_word(result.depths));
 }
 
 bool names_a_point(const Result& result) {
@@ -90,7 +83,7 @@ std::string eval_command(const Result& result) {
   static const std::set<std::string_view> kOfLimit{"positions",      "normals",       "finite",
                                                    "file-positions", "file-distance", "file-normals"};
   if (!names_a_point(result) || !kOfLimit.contains(result.check)) return "";
-  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", quoted(result.mesh), result.witness->where(),
+  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", shell_word(result.mesh), result.witness->where(),
                      result.witness->l1, result.witness->l2, mesh_options(result),
                      result.precision == LC_FLOAT32 ? " --precision float" : "",
                      result.weights == reference::Weights::kWarren ? " --weights warren" : "");
@@ -101,18 +94,18 @@ std::string difference_command(const Result& result) {
       "positions", "refined-positions", "normals",       "normal-length",
       "finite",    "shared-positions",  "shared-normals"};
   if (!names_a_point(result) || !kOfPoints.contains(result.check)) return "";
-  return fmt::format("limitcheck eval --subject {} {} {} {} {} --depth {}{}{}", quoted(result.subject),
-                     quoted(result.mesh), result.witness->where(), result.witness->l1, result.witness->l2,
+  return fmt::format("limitcheck eval --subject {} {} {} {} {} --depth {}{}{}", shell_word(result.subject),
+                     shell_word(result.mesh), result.witness->where(), result.witness->l1, result.witness->l2,
                      result.depth, depth_options(result), mesh_options(result));
 }
 
 std::string audit_command(const Result& result, const std::string& level) {
   if (result.check.starts_with("file-"))
-    return fmt::format("limitcheck audit --control {} --tessellation {}", quoted(result.mesh),
-                       quoted(result.subject)) +
-           mesh_options(result);
-  std::string command = fmt::format("limitcheck audit {} {} --depth {}", quoted(result.subject),
-                                    quoted(result.mesh), result.depth) +
+    return fmt::format("limitcheck audit --control {} --tessellation {}", shell_word(result.mesh),
+                       shell_word(result.subject)) +
+           mesh_options(result) + result.file_options;
+  std::string command = fmt::format("limitcheck audit {} {} --depth {}", shell_word(result.subject),
+                                    shell_word(result.mesh), result.depth) +
                         mesh_options(result);
   if (level != "standard") command += fmt::format(" --level {}", level);
   command += depth_options(result);

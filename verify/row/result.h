@@ -148,6 +148,7 @@ struct Result {
   std::string message;  // sentences for who reads it; nothing looks for words in them. May be empty
   std::vector<std::string> accepted;  // of broken meshes: what was wrong with those that it took
   std::int64_t not_finite = 0;        // points left out for it; of relations, that are finite in the original
+  std::string file_options;           // of finished files: what was asked besides, for the command line
   std::string waiver;                 // what became of it by a waiver: "waived until 2027-01-31: known"
   /// Of findings in positions and normals: where on the control mesh they are, ascending by kind and faces.
   std::vector<PlaceCount> places;

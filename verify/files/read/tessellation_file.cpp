@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "data/error.h"
+#include "data/io/gltf.h"
 
 namespace limitcheck::verify {
 
 FileTessellation read_tessellation(const std::filesystem::path& file) {
-  data::io::PolygonSoup soup = is_gltf(file) ? read_gltf(file) : data::io::read_soup(file);
+  data::io::PolygonSoup soup =
+      data::io::is_gltf(file) ? data::io::read_gltf(file) : data::io::read_soup(file);
   FileTessellation t;
   t.name = file.string();
   const auto vertices = static_cast<std::int64_t>(soup.positions.size());

@@ -37,20 +37,4 @@ struct FileTessellation {
 /// data::InputError with a FILE_ code, and MESH_EMPTY for a file without vertices.
 FileTessellation read_tessellation(const std::filesystem::path& file);
 
-/// .gltf or .glb, in any case.
-bool is_gltf(const std::filesystem::path& file);
-
-/// All triangles (lists, strips and fans) of all meshes that the default scene shows, each where its node
-/// puts it; without scenes all meshes as they are. Primitives that share their vertices share them here.
-///   precision  floats bit for bit under nodes without a transformation, else double arithmetic
-///   throws     data::InputError: FILE_CANNOT_OPEN, FILE_SYNTAX (not glTF 2.0, or an accessor out of its
-///              buffer), FILE_UNSUPPORTED (positions that are not floats, sparse or compressed accessors,
-///              JSON that nests too deep, an extension that is required and changes the shape); a node that
-///              occurs twice is FILE_SYNTAX. Buffers beside the file must be regular files.
-data::io::PolygonSoup read_gltf(const std::filesystem::path& file);
-
-/// The same from memory. `binary`: GLB. `folder`: where buffers beside the file are. `name`: for messages.
-data::io::PolygonSoup read_gltf(std::string_view content, bool binary, const std::string& folder,
-                                const std::string& name);
-
 }  // namespace limitcheck::verify

@@ -16,6 +16,7 @@
 #include "data/io/write.h"
 #include "data/validate.h"
 #include "verify/subject/control_mesh.h"
+#include "verify/subject/shell_word.h"
 
 namespace limitcheck::verify {
 
@@ -229,20 +230,6 @@ std::uint64_t fnv1a(std::string_view text, std::uint64_t hash) {
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& text) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,=+-";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string inside;
-  for (const char c : text) {
-    if (c == '\'') {
-      inside += "'\\''";
-    } else {
-      inside += c;
-    }
-  }
-  return fmt::format("'{}'", inside);
-}
 
 std::string save_input(const std::string& folder, const Input& input) try {
   std::string command = fmt::format("limitcheck audit {}{}{}", input.flag, input.flag.empty() ? "" : " ",

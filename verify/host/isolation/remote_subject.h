@@ -66,9 +66,6 @@ class RemoteSubject {
   std::optional<Containment> containment_;
 };
 
-/// As one word for a shell: quoted if it needs to be.
-std::string shell_word(const std::string& text);
-
 struct Input {
   std::string flag, what;  // --program and its command; or a library's file or a built-in subject's name
   bool isolate = false;    // a built-in subject

@@ -73,7 +73,7 @@ class Mesh:
 
     @classmethod
     def load(cls, file: Union[str, os.PathLike], scheme: Optional[str] = None) -> "Mesh":
-        """A mesh from an OBJ, OFF, PLY or STL file."""
+        """A mesh from an OBJ, OFF, PLY, STL or USD (.usda) file."""
         return cls._of(_core.Mesh.load(os.fspath(file), scheme))
 
     @classmethod

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/files/read/tessellation_file.h"
+#include "data/io/gltf.h"
 
 #include <fmt/core.h>
 #include <tiny_gltf.h>
@@ -19,7 +19,7 @@
 #include "data/io/whole_content.h"
 #include "data/untrusted_json.h"
 
-namespace limitcheck::verify {
+namespace limitcheck::data::io {
 namespace {
 
 using Matrix = std::array<double, 16>;  // by columns, as glTF has them
@@ -77,8 +77,8 @@ std::string wrong_integer(const nlohmann::json& json, std::string_view path, con
                                         json.get<std::uint64_t>() >= static_cast<std::uint64_t>(field.least)
                                   : whole && json.get<std::int64_t>() >= field.least)
       return "";
-    return fmt::format("{} is {}, not a whole number from {} to {}", data::io::quoted(where),
-                       data::io::quoted(json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)),
+    return fmt::format("{} is {}, not a whole number from {} to {}", io::quoted(where),
+                       io::quoted(json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)),
                        field.least, field.most);
   }
   const std::size_t slash = std::min(path.find('/'), path.size());
@@ -106,10 +106,10 @@ bool is_beside(const std::string& file, void*) {
 
 // Buffers beside the file: regular files only, of a size that is read.
 bool read_beside(std::vector<unsigned char>* out, std::string* error, const std::string& file, void*) try {
-  const std::string content = data::io::whole_content(file);
+  const std::string content = whole_content(file);
   out->assign(content.begin(), content.end());
   return true;
-} catch (const data::InputError& refusal) {
+} catch (const InputError& refusal) {
   *error += refusal.what();
   return false;
 }
@@ -138,7 +138,7 @@ class Reader {
                           nullptr);
     loader.SetFsCallbacks({&is_beside, &tinygltf::ExpandFilePath, &read_beside, nullptr, nullptr});
     const std::string_view json = json_of(content, binary);
-    if (const std::size_t depth = data::json_nesting(json); depth > kDeepestJson)
+    if (const std::size_t depth = json_nesting(json); depth > kDeepestJson)
       refuse("FILE_UNSUPPORTED", fmt::format("its JSON nests {} deep; {} are read", depth, kDeepestJson));
     check_integers(json);
     if (content.size() > std::numeric_limits<unsigned>::max()) refuse("FILE_TOO_LARGE", "more than 4 GiB");
@@ -153,11 +153,11 @@ class Reader {
     if (!read) refuse("FILE_SYNTAX", error.empty() ? "not glTF 2.0" : error);
     for (const std::string& extension : model_.extensionsRequired)
       if (!is_about_looks(extension))
-        refuse("FILE_UNSUPPORTED", fmt::format("it requires the extension {}", data::io::quoted(extension)));
+        refuse("FILE_UNSUPPORTED", fmt::format("it requires the extension {}", io::quoted(extension)));
     visited_.resize(model_.nodes.size());
   }
 
-  data::io::PolygonSoup run() {
+  PolygonSoup run() {
     if (model_.scenes.empty()) {
       for (const tinygltf::Mesh& m : model_.meshes) add(m, kIdentity, -1);
     } else {
@@ -169,15 +169,15 @@ class Reader {
 
  private:
   [[noreturn]] void refuse(const char* code, const std::string& why) const {
-    throw data::InputError(code, name_, 0, why);
+    throw InputError(code, name_, 0, why);
   }
   // What is no JSON is left to the reader of glTF.
   void check_integers(std::string_view text) const try {
-    const nlohmann::json json = data::parse_untrusted(text, kDeepestJson);
+    const nlohmann::json json = parse_untrusted(text, kDeepestJson);
     for (const IntegerField& field : kIntegers)
       if (const std::string wrong = wrong_integer(json, field.path, field); !wrong.empty())
         refuse("FILE_SYNTAX", wrong);
-  } catch (const data::ArgumentError& error) {
+  } catch (const ArgumentError& error) {
     refuse("FILE_SYNTAX", error.what());
   }
   template <class T>
@@ -348,7 +348,7 @@ class Reader {
 
   std::string name_;
   tinygltf::Model model_;
-  data::io::PolygonSoup soup_;
+  PolygonSoup soup_;
   std::vector<bool> visited_;  // nodes
   std::map<std::tuple<int, int, int>, std::pair<std::int64_t, std::int64_t>> seen_;
   bool without_normals_ = false;
@@ -361,17 +361,37 @@ bool is_gltf(const std::filesystem::path& file) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-data::io::PolygonSoup read_gltf(std::string_view content, bool binary, const std::string& folder,
-                                const std::string& name) {
+PolygonSoup read_gltf(std::string_view content, bool binary, const std::string& folder,
+                      const std::string& name) {
   return Reader(content, binary, folder, name).run();
 }
 
-data::io::PolygonSoup read_gltf(const std::filesystem::path& file) {
+PolygonSoup read_gltf(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
-    throw data::InputError("FILE_CANNOT_OPEN", file.string(), 0, "there is no such file");
-  return read_gltf(data::io::whole_content(file), lower_extension(file) == ".glb",
-                   file.parent_path().string(), file.string());
+    throw InputError("FILE_CANNOT_OPEN", file.string(), 0, "there is no such file");
+  return read_gltf(whole_content(file), lower_extension(file) == ".glb", file.parent_path().string(),
+                   file.string());
 }
 
-}  // namespace limitcheck::verify
+PolygonSoup read_control_soup(const std::filesystem::path& file) {
+  if (!is_gltf(file)) return read_soup(file);
+  PolygonSoup soup = read_gltf(file);
+  std::map<std::array<double, 3>, std::int64_t> vertices;
+  std::vector<std::int64_t> to;
+  for (std::array<double, 3> p : soup.positions) {
+    for (double& x : p) x += 0.0;  // -0 is 0
+    to.push_back(vertices.try_emplace(p, static_cast<std::int64_t>(vertices.size())).first->second);
+  }
+  for (std::int64_t& v : soup.corners) v = v < 0 ? v : to[v];
+  const std::size_t before = soup.positions.size();
+  soup.positions.resize(vertices.size());
+  for (const auto& [position, v] : vertices) soup.positions[v] = position;
+  soup.normals.clear();
+  if (before > vertices.size())
+    soup.notes.push_back(fmt::format("{} vertices at {} different positions: those at equal ones are one",
+                                     before, vertices.size()));
+  return soup;
+}
+
+}  // namespace limitcheck::data::io

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+// USD as text: the points, faces, creases, corners and holes of its Mesh prims, and what they say of scheme, boundary and
+// triangles; all meshes of a file are one. What USD means where a mesh says nothing is taken: Catmull-Clark's scheme, and
+// boundary vertices of one face held. Transformations are not applied; what moves no point is read over; anything else is
+// named in a note. Binary USD, animated points and what other files hold are refused.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <utility>
+
+#include "data/error.h"
+#include "data/io/polygon_soup.h"
+#include "data/io/text_scanner.h"
+
+namespace limitcheck::data::io {
+namespace {
+
+constexpr int kDeepest = 128;  // prims and brackets within each other
+
+struct UsdToken {
+  enum class Kind { kEnd, kWord, kText, kMark } kind = Kind::kEnd;
+  std::string_view text;  // of a text without its quotes
+  std::int64_t line = 0;
+  bool is(std::string_view mark) const { return kind == Kind::kMark && text == mark; }
+};
+
+// Words are names, numbers and paths; marks are brackets, '=', ',' and ';'.
+class UsdWords {
+ public:
+  UsdWords(std::string_view content, std::string name) : content_(content), name_(std::move(name)) {
+    if (!content_.starts_with("#usda "))
+      fail("FILE_UNSUPPORTED", "it does not begin with #usda: only USD as text is read");
+    pass();
+  }
+
+  const UsdToken& next() const { return next_; }
+  UsdToken take() {
+    const UsdToken taken = next_;
+    pass();
+    return taken;
+  }
+  bool take_if(std::string_view mark) {
+    const bool there = next_.is(mark);
+    if (there) pass();
+    return there;
+  }
+  void need(std::string_view mark) {
+    if (!take_if(mark)) syntax_error(fmt::format("'{}' is missing before {}", mark, said(next_)));
+  }
+  static std::string said(const UsdToken& token) {
+    return token.kind == UsdToken::Kind::kEnd ? "the end" : io::quoted(token.text);
+  }
+  [[noreturn]] void fail(const char* code, const std::string& why, std::int64_t line = -1) const {
+    throw InputError(code, name_, line < 0 ? line_ : line, why);
+  }
+  [[noreturn]] void syntax_error(const std::string& why) const { fail("FILE_SYNTAX", why, next_.line); }
+
+ private:
+  void pass() {
+    skip_blanks();
+    next_ = {UsdToken::Kind::kEnd, {}, line_};
+    if (at_ == content_.size()) return;
+    const char c = content_[at_];
+    if (c == '"' || c == '\'') return pass_text(c);
+    if (c == '@' || c == '<') return pass_text(c == '<' ? '>' : c);
+    std::size_t end = at_ + 1;
+    next_.kind = UsdToken::Kind::kMark;
+    if (is_of_a_word(c)) {
+      next_.kind = UsdToken::Kind::kWord;
+      while (end < content_.size() && is_of_a_word(content_[end])) ++end;
+      if (content_.substr(end, 2) == "[]") end += 2;  // of a type
+    }
+    next_.text = content_.substr(at_, end - at_);
+    at_ = end;
+  }
+  void skip_blanks() {
+    while (at_ < content_.size()) {
+      const char c = content_[at_];
+      if (c == '#')
+        at_ = std::min(content_.find('\n', at_), content_.size());
+      else if (std::isspace(static_cast<unsigned char>(c)) != 0)
+        line_ += content_[at_++] == '\n';
+      else
+        break;
+    }
+  }
+  // Between quotes, or three quotes each, in which a backslash hides one.
+  void pass_text(char quote) {
+    const std::string three(3, quote);
+    const std::string_view end = content_.substr(at_).starts_with(three)
+                                     ? std::string_view(three)
+                                     : std::string_view(three).substr(0, 1);
+    const std::size_t begin = at_ + end.size();
+    std::size_t k = begin;
+    for (; content_.substr(k, end.size()) != end; ++k) {
+      if (k >= content_.size()) fail("FILE_TRUNCATED", "the file ends within a text", next_.line);
+      line_ += content_[k] == '\n';
+      k += content_[k] == '\\' ? 1 : 0;
+    }
+    next_.kind = UsdToken::Kind::kText;
+    next_.text = content_.substr(begin, k - begin);
+    at_ = std::min(k + end.size(), content_.size());
+  }
+  static bool is_of_a_word(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("_:.+-").find(c) < 5 ||
+           static_cast<unsigned char>(c) >= 0x80;
+  }
+
+  std::string_view content_;
+  std::string name_;
+  std::size_t at_ = 0;
+  std::int64_t line_ = 1;
+  UsdToken next_;
+};
+
+// A property of a mesh: its numbers, tuples and lists flat, or its word.
+struct UsdValue {
+  std::vector<double> numbers;
+  std::string word;
+  std::int64_t line = 0;
+};
+
+constexpr std::string_view kRead[] = {"points",
+                                      "faceVertexCounts",
+                                      "faceVertexIndices",
+                                      "subdivisionScheme",
+                                      "interpolateBoundary",
+                                      "triangleSubdivisionRule",
+                                      "orientation",
+                                      "creaseIndices",
+                                      "creaseLengths",
+                                      "creaseSharpnesses",
+                                      "cornerIndices",
+                                      "cornerSharpnesses",
+                                      "holeIndices"};
+constexpr std::string_view kMovesNoPoint[] = {
+    "normals", "extent",     "doubleSided",   "visibility",
+    "purpose", "velocities", "accelerations", "faceVaryingLinearInterpolation"};
+
+template <class List>
+bool among(const List& list, std::string_view word) {
+  return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
+
+class UsdReader {
+ public:
+  UsdReader(std::string_view content, const std::string& name) : words_(content, name) {}
+
+  PolygonSoup read() {
+    if (words_.next().is("(")) pass_value(0);
+    while (words_.next().kind != UsdToken::Kind::kEnd) read_prim(0);
+    if (meshes_ == 0) words_.fail("FILE_UNSUPPORTED", "there is no Mesh in it");
+    return std::move(soup_);
+  }
+
+ private:
+  void note(std::int64_t line, const std::string& what) {
+    soup_.notes.push_back(fmt::format("line {}: {}", line, what));
+  }
+
+  static bool begins_prim(const UsdToken& token) {
+    return token.kind == UsdToken::Kind::kWord &&
+           (token.text == "def" || token.text == "over" || token.text == "class");
+  }
+
+  // def TYPE "name" (metadata) { properties and prims }
+  void read_prim(int depth) {
+    if (depth > kDeepest)
+      words_.fail("FILE_UNSUPPORTED", fmt::format("more than {} prims within each other", kDeepest));
+    if (!begins_prim(words_.next()))
+      words_.syntax_error(
+          fmt::format("a prim begins with def, over or class, not with {}", UsdWords::said(words_.next())));
+    const bool defines = words_.take().text == "def";
+    std::string_view type;
+    if (words_.next().kind == UsdToken::Kind::kWord) type = words_.take().text;
+    if (words_.next().kind != UsdToken::Kind::kText) words_.syntax_error("a prim has a name in quotes");
+    const UsdToken name = words_.take();
+    if (words_.next().is("(")) pass_value(0);
+    words_.need("{");
+    const bool is_mesh = defines && type == "Mesh";
+    std::map<std::string_view, UsdValue> values;
+    while (!words_.take_if("}")) {
+      if (words_.next().kind == UsdToken::Kind::kEnd)
+        words_.fail("FILE_TRUNCATED", "the file ends within a prim");
+      if (words_.take_if(";")) continue;
+      if (begins_prim(words_.next()))
+        read_prim(depth + 1);
+      else
+        read_property(is_mesh, values);
+    }
+    if (is_mesh) add(name, values);
+  }
+
+  // custom uniform TYPE name = value (metadata), and less: what stands on the line of its first word.
+  void read_property(bool of_mesh, std::map<std::string_view, UsdValue>& values) {
+    const std::int64_t line = words_.next().line;
+    std::string_view name;
+    bool is_relation = false, is_variant = false;
+    while (!words_.next().is("=") && words_.next().line == line && !words_.next().is("}")) {
+      const UsdToken token = words_.take();
+      if (token.kind == UsdToken::Kind::kMark) {
+        if (token.is(";")) return;
+        words_.fail("FILE_SYNTAX", fmt::format("a property cannot have {} here", io::quoted(token.text)),
+                    line);
+      }
+      is_relation = is_relation || token.text == "rel" || token.text == "nameChildren";
+      is_variant = is_variant || token.text == "variantSet";
+      name = token.text;
+    }
+    if (is_variant) note(line, fmt::format("the variants of {} are read over", io::quoted(name)));
+    if (name.starts_with("xformOp:"))
+      note(line, fmt::format("{} is not applied: points are as their mesh has them", io::quoted(name)));
+    const bool is_read = of_mesh && among(kRead, name);
+    if (of_mesh && name.starts_with("points."))
+      words_.fail("FILE_UNSUPPORTED", "the points move with time", line);
+    if (of_mesh && !is_read && !is_relation && !is_variant && !among(kMovesNoPoint, name) &&
+        !name.starts_with("primvars:") && !name.starts_with("xformOp") && !name.starts_with("normals"))
+      note(line, fmt::format("{} is read over", io::quoted(name)));
+    if (words_.take_if("=")) {
+      if (is_read) {
+        UsdValue value{{}, "", line};
+        read_value(value, 0);
+        if (!values.emplace(name, std::move(value)).second)
+          words_.fail("FILE_SYNTAX", fmt::format("{} is there twice", name), line);
+      } else {
+        pass_value(0);
+      }
+    }
+    if (words_.next().is("(")) pass_value(0);
+  }
+
+  void pass_value(int depth) {
+    if (depth > kDeepest) words_.fail("FILE_UNSUPPORTED", "brackets nest too deep");
+    const UsdToken token = words_.take();
+    if (token.kind == UsdToken::Kind::kEnd) words_.fail("FILE_TRUNCATED", "the file ends within a value");
+    const std::string_view close = token.is("(") ? ")" : token.is("[") ? "]" : token.is("{") ? "}" : "";
+    while (!close.empty() && !words_.take_if(close)) pass_value(depth + 1);
+  }
+
+  void read_value(UsdValue& value, int depth) {
+    const UsdToken token = words_.take();
+    const std::string_view close = token.is("(") ? ")" : token.is("[") ? "]" : "";
+    if (!close.empty() && depth < 2) {
+      while (!words_.take_if(close)) {
+        if (words_.next().kind == UsdToken::Kind::kEnd)
+          words_.fail("FILE_TRUNCATED", "the file ends within a list");
+        if (!words_.take_if(",")) read_value(value, depth + 1);
+      }
+    } else if (token.kind == UsdToken::Kind::kText && depth == 0) {
+      value.word = token.text;
+    } else if (const auto number =
+                   token.kind == UsdToken::Kind::kWord ? to_double(token.text) : std::nullopt) {
+      value.numbers.push_back(*number);
+    } else {
+      words_.fail("FILE_SYNTAX", fmt::format("{} is no number", UsdWords::said(token)), token.line);
+    }
+  }
+
+  static std::vector<std::int64_t> integers(const UsdValue& value, const UsdWords& words,
+                                            std::string_view what) {
+    std::vector<std::int64_t> list;
+    for (const double x : value.numbers) {
+      constexpr double kMost = 1e15;
+      if (!(x >= -kMost && x <= kMost) || x != static_cast<double>(static_cast<std::int64_t>(x)))
+        words.fail("FILE_SYNTAX", fmt::format("{} has {}, which is no whole number", what, x), value.line);
+      list.push_back(static_cast<std::int64_t>(x));
+    }
+    return list;
+  }
+
+  // One mesh, behind those before it.
+  void add(const UsdToken& prim, const std::map<std::string_view, UsdValue>& values) {
+    const auto value = [&](std::string_view name) {
+      const auto found = values.find(name);
+      return found == values.end() ? UsdValue{{}, "", prim.line} : found->second;
+    };
+    const auto whole = [&](std::string_view name) { return integers(value(name), words_, name); };
+    const auto refuse = [&](std::string_view name, const std::string& why) {
+      words_.fail("FILE_SYNTAX", fmt::format("Mesh {}: {}", io::quoted(prim.text), why), value(name).line);
+    };
+    const std::vector<double> points = value("points").numbers;
+    if (points.empty())
+      words_.fail("FILE_UNSUPPORTED",
+                  fmt::format("Mesh {} has no points: they may be in another file", io::quoted(prim.text)),
+                  prim.line);
+    if (points.size() % 3 != 0) refuse("points", "points are three numbers each");
+    const auto first_vertex = static_cast<std::int64_t>(soup_.positions.size());
+    const auto first_face = static_cast<std::int64_t>(soup_.polygon_end.size());
+    for (std::size_t k = 0; k < points.size(); k += 3) {
+      soup_.positions.push_back({points[k], points[k + 1], points[k + 2]});
+      soup_.position_lines.push_back(value("points").line);
+    }
+    const std::vector<std::int64_t> corners = whole("faceVertexIndices");
+    const std::string orientation = value("orientation").word;
+    const bool left = orientation == "leftHanded";
+    if (!left && !orientation.empty() && orientation != "rightHanded")
+      refuse("orientation", fmt::format("the orientation {} is unknown", io::quoted(orientation)));
+    std::size_t at = 0;
+    for (const std::int64_t count : whole("faceVertexCounts")) {
+      if (count < 0 || static_cast<std::uint64_t>(count) > corners.size() - at)
+        refuse("faceVertexCounts",
+               fmt::format("its faces have more corners than the {} there are", corners.size()));
+      const auto size = static_cast<std::size_t>(count);
+      for (std::size_t k = 0; k < size; ++k)
+        soup_.corners.push_back(first_vertex + corners[at + (left && k > 0 ? size - k : k)]);
+      at += size;
+      soup_.close_polygon(value("faceVertexCounts").line);
+    }
+    if (at != corners.size())
+      refuse("faceVertexCounts", fmt::format("its faces have {} corners, there are {}", at, corners.size()));
+    add_sharp(value, whole, refuse, first_vertex);
+    for (const std::int64_t face : whole("holeIndices"))
+      soup_.holes.push_back({face < 0 ? -1 : first_face + face, value("holeIndices").line});
+    choose(prim, value);
+  }
+
+  template <class Value, class Whole, class Refuse>
+  void add_sharp(const Value& value, const Whole& whole, const Refuse& refuse, std::int64_t first_vertex) {
+    const std::vector<std::int64_t> chain = whole("creaseIndices"), lengths = whole("creaseLengths");
+    const std::vector<double> sharpnesses = value("creaseSharpnesses").numbers;
+    std::int64_t edges = 0, vertices = 0;
+    for (const std::int64_t length : lengths) {
+      if (length < 2) refuse("creaseLengths", "a crease has two vertices and more");
+      edges += length - 1, vertices += length;
+    }
+    const bool by_edge = sharpnesses.size() == static_cast<std::size_t>(edges);
+    if (vertices != static_cast<std::int64_t>(chain.size()) ||
+        (!by_edge && sharpnesses.size() != lengths.size()))
+      refuse(
+          "creaseLengths",
+          fmt::format("{} creases of {} vertices in all, {} vertices and {} sharpnesses do not go together",
+                      lengths.size(), vertices, chain.size(), sharpnesses.size()));
+    std::size_t at = 0, edge = 0;
+    for (std::size_t k = 0; k < lengths.size(); ++k, ++at)
+      for (std::int64_t j = 1; j < lengths[k]; ++j, ++at, ++edge)
+        soup_.sharp.push_back({first_vertex + chain[at], first_vertex + chain[at + 1],
+                               sharpnesses[by_edge ? edge : k], value("creaseIndices").line});
+    const std::vector<std::int64_t> held = whole("cornerIndices");
+    const std::vector<double> how = value("cornerSharpnesses").numbers;
+    if (held.size() != how.size())
+      refuse("cornerIndices", fmt::format("{} corners and {} sharpnesses", held.size(), how.size()));
+    for (std::size_t k = 0; k < held.size(); ++k)
+      soup_.sharp.push_back({first_vertex + held[k], -1, how[k], value("cornerIndices").line});
+  }
+
+  // Scheme, boundary and rule for triangles, which all meshes of a file must agree on.
+  template <class Value>
+  void choose(const UsdToken& prim, const Value& value) {
+    const auto one_of = [&](std::string_view name, const std::vector<std::string_view>& known) {
+      const UsdValue said = value(name);
+      const auto found = std::find(known.begin(), known.end(), said.word);
+      if (!said.word.empty() && found == known.end())
+        words_.fail("FILE_UNSUPPORTED",
+                    fmt::format("{} is {}, which is not read", name, io::quoted(said.word)), said.line);
+      return said.word.empty() ? std::size_t{0} : static_cast<std::size_t>(found - known.begin());
+    };
+    const std::array<std::size_t, 3> chosen{
+        one_of("subdivisionScheme", {"catmullClark", "loop", "none"}),
+        one_of("interpolateBoundary", {"edgeAndCorner", "edgeOnly", "none"}),
+        one_of("triangleSubdivisionRule", {"catmullClark", "smooth"})};
+    if (meshes_++ > 0 && chosen != chosen_)
+      words_.fail("FILE_UNSUPPORTED",
+                  fmt::format("Mesh {} has another subdivisionScheme, interpolateBoundary or "
+                              "triangleSubdivisionRule than those before it",
+                              io::quoted(prim.text)),
+                  prim.line);
+    chosen_ = chosen;
+    if (chosen[0] < 2) soup_.scheme = chosen[0] == 0 ? Scheme::kCatmullClark : Scheme::kLoop;
+    if (chosen[0] == 2 && meshes_ == 1)
+      note(prim.line, "subdivisionScheme is \"none\": the scheme is chosen by the faces");
+    soup_.choices.boundary = chosen[1] == 0 ? Boundary::kEdgeAndCorner : Boundary::kEdge;
+    soup_.hides_boundary = chosen[1] == 2;
+    soup_.choices.triangles = chosen[2] == 0 ? TriangleRule::kCatmark : TriangleRule::kSmooth;
+  }
+
+  UsdWords words_;
+  PolygonSoup soup_;
+  int meshes_ = 0;
+  std::array<std::size_t, 3> chosen_{};
+};
+
+}  // namespace
+
+PolygonSoup read_usda(std::string_view content, const std::string& name) {
+  return UsdReader(content, name).read();
+}
+
+}  // namespace limitcheck::data::io

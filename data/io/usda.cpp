@@ -95,10 +95,11 @@ class UsdWords {
                                      : std::string_view(three).substr(0, 1);
     const std::size_t begin = at_ + end.size();
     std::size_t k = begin;
-    for (; content_.substr(k, end.size()) != end; ++k) {
+    for (;; ++k) {
       if (k >= content_.size()) fail("FILE_TRUNCATED", "the file ends within a text", next_.line);
+      if (content_.substr(k, end.size()) == end) break;
+      if (content_[k] == '\\' && k + 1 < content_.size()) ++k;
       line_ += content_[k] == '\n';
-      k += content_[k] == '\\' ? 1 : 0;
     }
     next_.kind = UsdToken::Kind::kText;
     next_.text = content_.substr(begin, k - begin);
@@ -199,7 +200,8 @@ class UsdReader {
     const std::int64_t line = words_.next().line;
     std::string_view name;
     bool is_relation = false, is_variant = false;
-    while (!words_.next().is("=") && words_.next().line == line && !words_.next().is("}")) {
+    while (!words_.next().is("=") && words_.next().line == line && !words_.next().is("}") &&
+           words_.next().kind != UsdToken::Kind::kEnd) {
       const UsdToken token = words_.take();
       if (token.kind == UsdToken::Kind::kMark) {
         if (token.is(";")) return;

@@ -99,6 +99,11 @@ TEST(Usda, FaultsAreNamedWithTheirLine) {
   EXPECT_EQ(error_of("def Mesh \"m\" { }"), "FILE_UNSUPPORTED:2");
   EXPECT_EQ(error_of("def Mesh \"m\" {"), "FILE_TRUNCATED:2");
   EXPECT_EQ(error_of("def Mesh \"m"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of("def Mesh \"m\" { int a"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of("def Mesh \"m\" { int a ="), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of("def Mesh \"m\" { = 3 }"), "FILE_UNSUPPORTED:2");
+  EXPECT_EQ(error_of("(\"\"\"\\"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of("(\"\\\"\")\n nonsense"), "FILE_SYNTAX:3");
   EXPECT_EQ(error_of("nonsense"), "FILE_SYNTAX:2");
   std::string deep;
   for (int k = 0; k < 100000; ++k) deep += "def Xform \"x\" { ";

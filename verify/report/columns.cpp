@@ -52,7 +52,7 @@ void add_wrapped(std::string& out, std::string line, std::size_t width, std::siz
     const std::size_t next = line.find_first_not_of(' ', blank);
     if (next == std::string::npos) break;
     out += line.substr(0, line.find_last_not_of(' ', blank - 1) + 1) + "\n";
-    line = hang + line.substr(next);
+    line.replace(0, next, hang);
   }
   out += line;
 }

@@ -34,8 +34,8 @@ static lc_status capabilities(const char* options, lc_capabilities* out, const c
 static lc_status create(const lc_mesh* mesh, const char* options, void** instance, const char** message) {
   (void)options;
   Mesh m = mesh_allocate(mesh->vertex_count, mesh->triangle_count), *kept = malloc(sizeof *kept);
-  memcpy(m.p, mesh->positions, (size_t)m.vertices * sizeof(Vec));
-  memcpy(m.from, mesh->triangles, (size_t)m.halves * sizeof(int32_t));
+  if (m.vertices > 0) memcpy(m.p, mesh->positions, (size_t)m.vertices * sizeof(Vec));
+  if (m.halves > 0) memcpy(m.from, mesh->triangles, (size_t)m.halves * sizeof(int32_t));
   *kept = m;
   *message = mesh_connect(kept);
   if (*message == NULL) return *instance = kept, LC_OK;

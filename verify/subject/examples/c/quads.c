@@ -135,8 +135,8 @@ static lc_status create(const lc_mesh* mesh, const char* options, void** instanc
     if (mesh->corners[k] < 0 || mesh->corners[k] >= mesh->vertex_count)
       return *message = "a quad names a vertex that does not exist", LC_INVALID_INPUT;
   Mesh m = allocate((int32_t)mesh->vertex_count, (int32_t)mesh->corner_count), *kept = malloc(sizeof *kept);
-  memcpy(m.p, mesh->positions, (size_t)m.vertices * sizeof *m.p);
-  memcpy(m.from, mesh->corners, (size_t)m.halves * sizeof *m.from);
+  if (m.vertices > 0) memcpy(m.p, mesh->positions, (size_t)m.vertices * sizeof *m.p);
+  if (m.halves > 0) memcpy(m.from, mesh->corners, (size_t)m.halves * sizeof *m.from);
   for (int32_t h = 0; h < m.halves; ++h)
     m.at[h][0] = h % 4 == 1 || h % 4 == 2, m.at[h][1] = h % 4 >= 2; /* (0, 0), (1, 0), (1, 1), (0, 1) */
   *message = connect(&m);

@@ -18,8 +18,8 @@ static lc_status create(const lc_mesh* mesh, const char* options, void** instanc
   (void)options;
   Mesh* kept = malloc(sizeof *kept);
   *kept = mesh_allocate(mesh->vertex_count, mesh->triangle_count);
-  memcpy(kept->p, mesh->positions, (size_t)kept->vertices * sizeof(Vec));
-  memcpy(kept->from, mesh->triangles, (size_t)kept->halves * sizeof(int32_t));
+  if (kept->vertices > 0) memcpy(kept->p, mesh->positions, (size_t)kept->vertices * sizeof(Vec));
+  if (kept->halves > 0) memcpy(kept->from, mesh->triangles, (size_t)kept->halves * sizeof(int32_t));
   *message = mesh_connect(kept);
   if (*message == NULL) return *instance = kept, LC_OK;
   mesh_free(*kept), free(kept);

@@ -275,15 +275,16 @@ class UsdReader {
 
   // One mesh, behind those before it.
   void add(const UsdToken& prim, const std::map<std::string_view, UsdValue>& values) {
-    const auto value = [&](std::string_view name) {
+    const UsdValue absent{{}, "", prim.line};
+    const auto value = [&](std::string_view name) -> const UsdValue& {
       const auto found = values.find(name);
-      return found == values.end() ? UsdValue{{}, "", prim.line} : found->second;
+      return found == values.end() ? absent : found->second;
     };
     const auto whole = [&](std::string_view name) { return integers(value(name), words_, name); };
     const auto refuse = [&](std::string_view name, const std::string& why) {
       words_.fail("FILE_SYNTAX", fmt::format("Mesh {}: {}", io::quoted(prim.text), why), value(name).line);
     };
-    const std::vector<double> points = value("points").numbers;
+    const std::vector<double>& points = value("points").numbers;
     if (points.empty())
       words_.fail("FILE_UNSUPPORTED",
                   fmt::format("Mesh {} has no points: they may be in another file", io::quoted(prim.text)),
@@ -295,7 +296,20 @@ class UsdReader {
       soup_.positions.push_back({points[k], points[k + 1], points[k + 2]});
       soup_.position_lines.push_back(value("points").line);
     }
-    const std::vector<std::int64_t> corners = whole("faceVertexIndices");
+    // Of another mesh of the file no index is taken for one of this.
+    const auto moved = [&](std::string_view name, const char* code, std::int64_t first, std::size_t count) {
+      std::vector<std::int64_t> list = whole(name);
+      for (std::int64_t& i : list) {
+        if (i < 0 || static_cast<std::uint64_t>(i) >= count)
+          words_.fail(code, fmt::format("Mesh {}: {} has {}, of {}", io::quoted(prim.text), name, i, count),
+                      value(name).line);
+        i += first;
+      }
+      return list;
+    };
+    const std::size_t vertices = points.size() / 3;
+    const std::vector<std::int64_t> corners =
+        moved("faceVertexIndices", "MESH_INDEX_OUT_OF_RANGE", first_vertex, vertices);
     const std::string orientation = value("orientation").word;
     const bool left = orientation == "leftHanded";
     if (!left && !orientation.empty() && orientation != "rightHanded")
@@ -307,22 +321,27 @@ class UsdReader {
                fmt::format("its faces have more corners than the {} there are", corners.size()));
       const auto size = static_cast<std::size_t>(count);
       for (std::size_t k = 0; k < size; ++k)
-        soup_.corners.push_back(first_vertex + corners[at + (left && k > 0 ? size - k : k)]);
+        soup_.corners.push_back(corners[at + (left && k > 0 ? size - k : k)]);
       at += size;
       soup_.close_polygon(value("faceVertexCounts").line);
     }
     if (at != corners.size())
       refuse("faceVertexCounts", fmt::format("its faces have {} corners, there are {}", at, corners.size()));
-    add_sharp(value, whole, refuse, first_vertex);
-    for (const std::int64_t face : whole("holeIndices"))
-      soup_.holes.push_back({face < 0 ? -1 : first_face + face, value("holeIndices").line});
+    const auto vertices_of = [&](const char* name) {
+      return moved(name, "MESH_SHARPNESS", first_vertex, vertices);
+    };
+    add_sharp(value, whole, refuse, vertices_of("creaseIndices"), vertices_of("cornerIndices"));
+    for (const std::int64_t face :
+         moved("holeIndices", "MESH_HOLE", first_face, soup_.polygon_end.size() - first_face))
+      soup_.holes.push_back({face, value("holeIndices").line});
     choose(prim, value);
   }
 
   template <class Value, class Whole, class Refuse>
-  void add_sharp(const Value& value, const Whole& whole, const Refuse& refuse, std::int64_t first_vertex) {
-    const std::vector<std::int64_t> chain = whole("creaseIndices"), lengths = whole("creaseLengths");
-    const std::vector<double> sharpnesses = value("creaseSharpnesses").numbers;
+  void add_sharp(const Value& value, const Whole& whole, const Refuse& refuse,
+                 const std::vector<std::int64_t>& chain, const std::vector<std::int64_t>& held) {
+    const std::vector<std::int64_t> lengths = whole("creaseLengths");
+    const std::vector<double>& sharpnesses = value("creaseSharpnesses").numbers;
     std::int64_t edges = 0, vertices = 0;
     for (const std::int64_t length : lengths) {
       if (length < 2) refuse("creaseLengths", "a crease has two vertices and more");
@@ -338,21 +357,20 @@ class UsdReader {
     std::size_t at = 0, edge = 0;
     for (std::size_t k = 0; k < lengths.size(); ++k, ++at)
       for (std::int64_t j = 1; j < lengths[k]; ++j, ++at, ++edge)
-        soup_.sharp.push_back({first_vertex + chain[at], first_vertex + chain[at + 1],
-                               sharpnesses[by_edge ? edge : k], value("creaseIndices").line});
-    const std::vector<std::int64_t> held = whole("cornerIndices");
-    const std::vector<double> how = value("cornerSharpnesses").numbers;
+        soup_.sharp.push_back(
+            {chain[at], chain[at + 1], sharpnesses[by_edge ? edge : k], value("creaseIndices").line});
+    const std::vector<double>& how = value("cornerSharpnesses").numbers;
     if (held.size() != how.size())
       refuse("cornerIndices", fmt::format("{} corners and {} sharpnesses", held.size(), how.size()));
     for (std::size_t k = 0; k < held.size(); ++k)
-      soup_.sharp.push_back({first_vertex + held[k], -1, how[k], value("cornerIndices").line});
+      soup_.sharp.push_back({held[k], -1, how[k], value("cornerIndices").line});
   }
 
   // Scheme, boundary and rule for triangles, which all meshes of a file must agree on.
   template <class Value>
   void choose(const UsdToken& prim, const Value& value) {
     const auto one_of = [&](std::string_view name, const std::vector<std::string_view>& known) {
-      const UsdValue said = value(name);
+      const UsdValue& said = value(name);
       const auto found = std::find(known.begin(), known.end(), said.word);
       if (!said.word.empty() && found == known.end())
         words_.fail("FILE_UNSUPPORTED",

@@ -75,6 +75,16 @@ TEST(Usda, MeshesOfAFileAreOneAndMustAgree) {
             "FILE_UNSUPPORTED:8");
 }
 
+TEST(Usda, NoIndexReachesIntoAnotherMesh) {
+  const std::string beyond =
+      "  point3f[] points = [(0,0,0), (1,0,0), (0,1,0)]\n  int[] faceVertexCounts = [3]\n  int[] "
+      "faceVertexIndices = [0,1,3]\n";
+  EXPECT_EQ(error_of(mesh_of("", beyond) + mesh_of("")), "MESH_INDEX_OUT_OF_RANGE:5");
+  EXPECT_EQ(error_of(mesh_of("") + mesh_of("int[] holeIndices = [-1]")), "MESH_HOLE:12");
+  EXPECT_EQ(error_of(mesh_of("int[] cornerIndices = [6]\nfloat[] cornerSharpnesses = [1]") + mesh_of("")),
+            "MESH_SHARPNESS:6");
+}
+
 TEST(Usda, WhatIsNotUnderstoodIsNamed) {
   const auto notes = io::read_usda("#usda 1.0\n" + mesh_of("double3 xformOp:translate = (1, 2, 3)\n"
                                                            "custom int strange = 3\ntoken outputs:surface\n"

@@ -52,7 +52,7 @@ std::size_t screen_width(int fd) {
   const std::string_view text = columns == nullptr ? "" : columns;
   std::size_t width = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
-  if (error != std::errc() || end != text.data() + text.size()) return 0;
+  if (error != std::errc() || end != text.data() + text.size() || width == 0) return 0;
   return std::clamp(width, kLeast, kMost);
 }
 

@@ -8,7 +8,8 @@
 #   verify/sanitize.sh valgrind [--gtest_filter=...]          memcheck: the tests of the libraries, and quick audits
 # Left out, and why: under asan and tsan the subject that writes where it must not, on purpose, and with it into the
 # sanitizer's own memory; in a program of its own (`program`) all libraries that break memory on purpose, which the
-# sanitizer would tell first. Under tsan data/ and reference/, which use no threads, the tests that sample the running
+# sanitizer would tell first, and two tests that limit or measure the address space, of which it reserves 20 TB. Under
+# tsan data/ and reference/, which use no threads, the tests that sample the running
 # program by a timer's signals, which tsan holds back, and ten million points, which take it some ten minutes. Under
 # valgrind AVX-512, which 3.19 lacks. Under tsan and valgrind the test that counts allocations by an operator new of
 # its own, where they have theirs.
@@ -66,7 +67,7 @@ case $kind in
     export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:handle_segv=0
     export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS=suppressions=$PWD/verify/lsan.suppressions:print_suppressions=0
     for folder in "${folders[@]}"; do
-      tests_of "build/asan-ubsan/$folder" 'Hostile|Behaviours.OfLibraries' "$@"
+      tests_of "build/asan-ubsan/$folder"         'Hostile|Behaviours.OfLibraries|Process.OfALauncherKnows|Process.OfAForkedProgram' "$@"
     done
     ;;
   tsan | tsan-clang)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Times one case on request, so that two builds, each in a process of its own, can take turns of a few
 // milliseconds and share the same conditions on a busy machine.
-//   timing_turns          the build, then the names of the cases; they are names of throughput_bench
+//   timing_turns          the build, then the names of the cases
+//   timing_turns CASE     makes the case ready and runs it once
 //   timing_turns --serve  reads "REPETITIONS CASE" lines; answers each with the nanoseconds of processor
 //                         time per run, one number per repetition of about two milliseconds, or "? CASE"
 //                         if there is no such case
@@ -10,46 +11,21 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <string>
+#include <utility>
 
 #include "bench/build_identity.h"
-#include "bench/contenders/contender.h"
-#include "data/generators/bumpy_sphere.h"
+#include "bench/cases/tracked.h"
 
 namespace {
 
 using namespace limitcheck;
 
-/// Makes ready; what it returns is timed.
-using Case = std::function<std::function<void()>()>;
-
-const data::ControlMesh& mesh_of(int faces) {
-  static std::map<int, data::ControlMesh> known;
-  const auto found = known.find(faces);
-  return found != known.end() ? found->second
-                              : known.emplace(faces, data::bumpy_sphere(faces, 1)).first->second;
-}
-
-std::map<std::string, Case> cases() {
-  std::map<std::string, Case> list;
-  for (const bench::Route& route : bench::our_routes()) {
-    const int faces = route.nanoseconds_per_point < 10 ? 1000 : 200;
-    const auto name = [&](const char* use, int depth) {
-      return route.name + "/" + use + "/bumpy/faces:" + std::to_string(faces) +
-             "/depth:" + std::to_string(depth) + "/threads:1";
-    };
-    for (const int depth : {3, 5}) {
-      list[name("steady", depth)] = [route, faces, depth] {
-        std::shared_ptr<bench::Contender> contender = route.make(mesh_of(faces), depth, 1);
-        contender->run();  // first-touch allocations
-        return [contender] { contender->run(); };
-      };
-    }
-    list[name("scratch", 3)] = [route, faces] {
-      return [route, &mesh = mesh_of(faces)] { route.make(mesh, 3, 1)->run(); };
-    };
-  }
+/// The cases that are timed, by name.
+std::map<std::string, bench::Tracked> cases() {
+  std::map<std::string, bench::Tracked> list;
+  for (bench::Tracked& one : bench::tracked_cases())
+    if (!one.timed.empty()) list.emplace(one.timed, std::move(one));
   return list;
 }
 
@@ -70,8 +46,8 @@ struct Ready {
   int runs = 1;  // that take about two milliseconds
 };
 
-Ready make_ready(const Case& one) {
-  Ready ready{one()};
+Ready make_ready(const bench::Tracked& one) {
+  Ready ready{one.make(bench::Way::kTimed)};
   const double nanoseconds = timed(ready.work, 1);
   ready.runs = nanoseconds < 2e6 ? static_cast<int>(2e6 / nanoseconds) + 1 : 1;
   return ready;
@@ -102,7 +78,17 @@ int main(int argc, char** argv) {
     serve();
     return 0;
   }
+  const auto list = cases();
+  if (argc > 1) {
+    const auto found = list.find(argv[1]);
+    if (found == list.end()) {
+      std::fprintf(stderr, "timing_turns: there is no case '%s'\n", argv[1]);
+      return 2;
+    }
+    found->second.make(bench::Way::kTimed)();
+    return 0;
+  }
   std::puts(bench::build_identity().c_str());
-  for (const auto& [name, make] : cases()) std::puts(name.c_str());
+  for (const auto& [name, one] : list) std::puts(name.c_str());
   return 0;
 }

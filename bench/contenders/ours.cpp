@@ -10,10 +10,6 @@
 #include "fast/window/sliding_window.h"
 #include "reference/loop/naive.h"
 
-#ifndef PLANTED_SLOWDOWN
-#define PLANTED_SLOWDOWN 0
-#endif
-
 namespace limitcheck::bench {
 
 namespace {
@@ -50,12 +46,6 @@ class RowStreaming final : public Contender {
       switch (form_) {
         case Form::kRows:
           stream_.rows(some, depth_, *workspace, nullptr, nullptr);
-          if constexpr (PLANTED_SLOWDOWN > 0) {  // so many per cent of the batches, at least one, once more
-            const std::size_t batches = (some.size() + lanes - 1) / lanes;
-            const std::size_t again = std::max<std::size_t>(1, (batches * PLANTED_SLOWDOWN + 50) / 100);
-            stream_.rows(some.first(std::min(some.size(), again * lanes)), depth_, *workspace, nullptr,
-                         nullptr);
-          }
           break;
         case Form::kWhole:
           stream_.whole(some, depth_, *workspace, out_.data() + start);

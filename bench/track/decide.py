@@ -2,6 +2,7 @@
 """Is B slower than A? Exact counts decide by themselves; times need statistics, size and a second round."""
 import itertools
 import math
+import re
 import statistics
 
 import scipy.stats
@@ -19,7 +20,8 @@ def samples(timing):
     result = {}
     for run in timing["benchmarks"]:
         if run.get("run_type") == "iteration" and not run.get("error_occurred"):
-            result.setdefault(run["run_name"], []).append(run["real_time"])
+            name = run["run_name"].removesuffix("/real_time")  # as records of 0.1 have it
+            result.setdefault(name, []).append(run["real_time"])
     return result
 
 
@@ -90,6 +92,28 @@ def worst_first(rows):
         rank = 0 if worse else 1 if row["suspect"] else 2 if row["verdict"] else 3
         return rank, -abs(math.log(row["ratio"])), row["name"]
     return sorted(rows, key=place)
+
+
+def kernel_of(case):
+    """What a case is of: its name without what it does with it. "row-stream/avx2/bumpy", "set-up/naive"."""
+    return re.sub(r"/(steady|scratch|faces:\d+|depth:\d+|threads:\d+)(?=/|$)", "", case)
+
+
+def by_kernel(rows):
+    """{kernel: its rows, worst first}, in the order of the worst."""
+    groups = {}
+    for row in worst_first(rows):
+        groups.setdefault(kernel_of(row["name"]), []).append(row)
+    return groups
+
+
+def short_function(name, most=48):
+    """A function as callgrind names it, without arguments, templates, namespaces and the build's suffix."""
+    name = re.sub(r"\[clone .*|'\d+$", "", name).strip()
+    while (plain := re.sub(r"<[^<>]*>|\([^()]*\)( const)?", "", name)) != name:
+        name = plain
+    name = "::".join(name.split(" ")[-1].split("::")[-2:])
+    return name if len(name) <= most else name[:most - 1] + "…"
 
 
 def unmatched(a, b):

@@ -16,6 +16,7 @@ import decide  # noqa: E402
 import gate  # noqa: E402
 import measure  # noqa: E402
 import self_test  # noqa: E402
+import turns  # noqa: E402
 
 PROGRAMS = None
 QUIET = lambda text: None  # noqa: E731
@@ -116,16 +117,44 @@ class Built(unittest.TestCase):
         if PROGRAMS is None:
             raise unittest.SkipTest("give the folder of the programs")
 
-    def test_a_planted_slowdown_of_five_per_cent_shows_in_every_case_of_its_kernel_and_in_no_other(self):
-        pattern = self_test.PLANTED_KERNEL + "|whole-pairs/depth:3|sliding-window/depth:3"
-        a, b = ({"instructions": measure.instruction_counts(side, QUIET, pattern)}
-                for side in (PROGRAMS, PROGRAMS / "planted" / "5"))
-        rows = decide.judge_counts(a, b)
-        slow = [row for row in rows if measure.matches(self_test.PLANTED_KERNEL, row["name"])]
-        self.assertGreaterEqual(len(slow), 1)
-        self.assertEqual({row["verdict"] for row in slow}, {"more"}, slow)
-        others = [row for row in rows if row not in slow and not row["name"].startswith("set-up/")]
-        self.assertEqual({row["verdict"] for row in others}, {""}, others)
+    def test_every_function_of_every_kernel_is_timed_and_where_callgrind_knows_it_counted(self):
+        timed, counted = (measure.kernel_calls(PROGRAMS, program) for program in ("timing_turns", "instruction_case"))
+        self.assertGreaterEqual(len(timed), 2 * 5, "the scalar kernels alone have five functions")
+        self.assertEqual([f for f, cases in timed.items() if not cases], [])
+        self.assertEqual([f for f, cases in counted.items() if not cases and "avx512" not in f], [])
+        standard = measure.SUITES["standard"]
+        best = next(f.split("/")[1] for f in timed)  # the targets come best first
+        for function, cases in timed.items():
+            if function.split("/")[1:-1] == [best]:
+                self.assertTrue(any(measure.matches(standard, case) for case in cases), function)
+
+    def test_every_scheme_form_and_use_is_among_the_cases(self):
+        timed = turns.build_and_cases(PROGRAMS)[1]
+        counted = measure.counted_cases(PROGRAMS)[1]
+        forms = ("random-depths", "indexed", "patches", "patches-kept", "patches-compact", "patches-sticky", "deforming-project-sphere",
+                 "deforming-combined")
+        wanted = [f"{scheme}frame/row-stream/{form}" for scheme in ("", "quads/") for form in forms]
+        wanted += [f"equal-error/{what}" for what in ("points/normals:2^-16", "points/quads/normals:2^-16", "frames/pixels:0.5",
+                                                      "frames/quads/pixels:0.5")]
+        wanted += ["n-gons/frame/row-stream/patches", "semi-sharp/frame/row-stream/patches"]
+        self.assertEqual(sorted(set(wanted) - set(timed)), [])
+        self.assertEqual(sorted(set(wanted) - set(counted)), [])
+        for pattern in (r"^row-stream/whole-pairs/steady", r"^row-stream/whole-quads/steady", r"^row-stream/streamed/steady/bumpy",
+                        r"^row-stream/streamed/steady/quads", r"/scratch/bumpy", r"/scratch/quads", r"bumpy/.*threads:2$",
+                        r"quads/.*threads:2$", r"^frame/row-stream/two-threads$", r"^quads/frame/row-stream/two-threads$"):
+            self.assertTrue(any(measure.matches(pattern, case) for case in timed), pattern)
+
+    def test_a_kernel_slower_by_two_per_cent_of_a_case_shows_in_it_and_in_no_case_that_does_not_call_it(self):
+        case, other, function = "row-stream/avx2/depth:3", "quads/row-stream/avx2/depth:3", "loop/avx2/run"
+        if case not in measure.counted_cases(PROGRAMS)[1]:
+            self.skipTest("this machine has no AVX2")
+        before = measure.counts_of(PROGRAMS, [case, other], QUIET)
+        whole = self_test.instructions_for(PROGRAMS, function, case, before[case], QUIET)
+        plant = measure.Planted(PROGRAMS, f"{function}=+{round(.02 * whole)}")
+        rows = {row["name"]: row for row in decide.judge_counts({"instructions": before},
+                                                               {"instructions": measure.counts_of(plant, [case, other], QUIET)})}
+        self.assertAlmostEqual(rows[case]["ratio"], 1.02, delta=.002)
+        self.assertEqual((rows[case]["verdict"], rows[other]["verdict"]), ("more", ""))
 
     def test_nothing_is_allocated_once_a_contender_has_run(self):
         later = {n: v for n, v in gate.measured_exact(PROGRAMS).items() if n.startswith("allocations/later-run/")}

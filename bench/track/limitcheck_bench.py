@@ -20,6 +20,7 @@ import trend  # noqa: E402
 import turns  # noqa: E402
 
 HELD, FINDINGS, BAD_INPUT = 0, 1, 2
+MOST_LINES = 20  # of a table for a pull request
 EXPLAINED = 3  # rows whose counts moved: so many are told by function
 
 
@@ -80,7 +81,7 @@ def keep(programs, name):
 
 
 def command_run(args):
-    record = measure.measure(args.programs, args.suite, args.repetitions, args.rounds, counts=not args.no_counts,
+    record = measure.measure(args.programs, turns.time_once, args.suite, args.repetitions, args.rounds, counts=not args.no_counts,
                              progress=progress)
     progress("")
     name = args.label or record["commit"]
@@ -133,7 +134,7 @@ def compare_records(args):
         differences = machine.differences(a["identity"], measure.identity(args.programs))
         result = in_turns(kept, args.programs, a["suite"], a["instructions"], differences)
         return result, "times in turns with the kept programs"
-    b = measure.measure(args.programs, a["suite"], counts=bool(a["instructions"]), progress=progress)
+    b = measure.measure(args.programs, turns.time_once, a["suite"], counts=bool(a["instructions"]), progress=progress)
     lost = f"the programs of {args.a} are no longer in {kept}" if "kept" in a else f"the programs of {args.a} were not kept"
     return decide.compare(a, b), f"{lost} (bench run --keep), so its times are of another hour, and decide nothing"
 
@@ -157,7 +158,7 @@ def command_compare(args):
     elif args.markdown and result["comparable"]:
         print(markdown(*names, result))
     else:
-        print_comparison(*names, result, note)
+        print_comparison(*names, result, note, args.each)
     if not result["comparable"]:
         return BAD_INPUT
     return FINDINGS if result["regressions"] or result["only_a"] else HELD
@@ -167,33 +168,74 @@ def word(row):
     return row["verdict"] or ("suspect" if row["suspect"] else "")
 
 
+def worth_a_look(rows):
+    return [row for row in rows if word(row)]
+
+
+def worst_of(rows, kind):
+    """The first of that kind, which is the worst; or None."""
+    return next((row for row in rows if row["kind"] == kind), None)
+
+
+def moved_words(rows):
+    """In which functions the counts of these rows moved most."""
+    return ", ".join(f"{decide.short_function(name)} {of_b - of_a:+d}"
+                     for row in rows[:1] for name, of_a, of_b in row.get("functions", ())[:2])
+
+
 def markdown(a, b, result):
-    """For a pull request: what is worth a look, worst first."""
-    rows = [row for row in result["rows"] if word(row)]
+    """For a pull request, on one screen: the kernels that are worth a look, worst first."""
+    groups = {kernel: rows for kernel, rows in decide.by_kernel(result["rows"]).items() if worth_a_look(rows)}
     plural = "" if result["regressions"] == 1 else "s"
-    lines = [f"**{result['regressions']} regression{plural}**, {len(rows)} of {len(result['rows'])} rows worth a look "
-             f"(A = {a}, B = {b})", ""]
-    if rows:
-        lines += ["| | B / A | | benchmark |", "|---|---|---|---|"]
-    for row in rows:
-        of_kind = f"{row['a']} → {row['b']}" if "a" in row else f"p = {row['p']:.1e}"
-        lines.append(f"| {word(row)} | {row['ratio']:.3f} | {of_kind} | `{row['name']}` |")
-    lines += [f"- only in {side}: `{name}`" for side, names in (("A", result["only_a"]), ("B", result["only_b"])) for name in names]
+    lines = [f"**{result['regressions']} regression{plural}**, {len(worth_a_look(result['rows']))} of {len(result['rows'])} cases "
+             f"worth a look (A = {a}, B = {b})", ""]
+    if groups:
+        lines += ["| | time B / A | instructions B / A | kernel | cases |", "|---|---|---|---|---|"]
+    for kernel, rows in list(groups.items())[:MOST_LINES]:
+        time, count = (worst_of(rows, kind) for kind in ("time", "instructions"))
+        lines.append(f"| {word(rows[0])} | {ratio_of(time)} | {ratio_of(count)} | `{kernel}` | {len(worth_a_look(rows))} of {len(rows)} |")
+    if len(groups) > MOST_LINES:
+        lines.append(f"| | | | and {len(groups) - MOST_LINES} kernels more | |")
+    for side, names in (("A", result["only_a"]), ("B", result["only_b"])):
+        if names:
+            lines.append(f"- only in {side}: {len(names)} case{'' if len(names) == 1 else 's'}, `{names[0]}`"
+                         + (" first" if len(names) > 1 else ""))
     return "\n".join(lines)
 
 
-def print_comparison(a, b, result, note):
-    if not result["comparable"]:
-        print(f"limitcheck bench: {a} and {b} cannot be compared:", *result["differences"], sep="\n  ", file=sys.stderr)
-        return
-    print(f"A = {a}, B = {b}; {note}")
-    print(f"{'':9}{'B / A':>7}  {'p':>8}  {'':12}  benchmark")
+def ratio_of(row):
+    return f"{row['ratio']:.3f}" if row else ""
+
+
+def print_each(result):
+    """A line for each case."""
+    print(f"{'':9}{'B / A':>7}  {'p':>8}  {'':12}  case")
     for row in result["rows"]:
         p = f"{row['p']:.1e}" if "p" in row else "exact"
         counts = f": {row['a']} -> {row['b']}" if row["verdict"] and "a" in row else ""
         print(f"{word(row):9}{row['ratio']:7.3f}  {p:>8}  {row['kind']:12}  {row['name']}{counts}")
         for function, of_a, of_b in row.get("functions", ()):
-            print(f"{'':40}{of_b - of_a:+d} in {function}")
+            print(f"{'':40}{of_b - of_a:+d} in {decide.short_function(function, 80)}")
+
+
+def print_kernels(result):
+    """A line for each kernel: its worst case by times and by instructions."""
+    print(f"{'':9}{'time':>7}  {'instr.':>7}  kernel (B / A of its worst case)")
+    for kernel, rows in decide.by_kernel(result["rows"]).items():
+        time, count = (worst_of(rows, kind) for kind in ("time", "instructions"))
+        worst = worth_a_look(rows)
+        where = f": {len(worst)} of {len(rows)} cases" if worst else ""
+        print(f"{word(rows[0]):9}{ratio_of(time):>7}  {ratio_of(count):>7}  {kernel}{where}")
+        if worst and (moved := moved_words(worst)):
+            print(f"{'':27}{moved}")
+
+
+def print_comparison(a, b, result, note, each):
+    if not result["comparable"]:
+        print(f"limitcheck bench: {a} and {b} cannot be compared:", *result["differences"], sep="\n  ", file=sys.stderr)
+        return
+    print(f"A = {a}, B = {b}; {note}")
+    (print_each if each else print_kernels)(result)
     for side, names in (("A", result["only_a"]), ("B", result["only_b"])):
         for name in names:
             print(f"only in {side}: {name}")
@@ -267,8 +309,9 @@ def parser():
     compare.add_argument("--against", type=pathlib.Path, metavar="FOLDER", help="a build folder in place of A")
     compare.add_argument("--suite", default="standard", help=f"with --against: {suites}")
     compare.add_argument("--no-counts", action="store_true", help="with --against: times only")
+    compare.add_argument("--each", action="store_true", help="a line for each case, not for each kernel")
     compare.add_argument("--json", action="store_true", help="print one JSON document")
-    compare.add_argument("--markdown", action="store_true", help="print what is worth a look as Markdown, for a pull request")
+    compare.add_argument("--markdown", action="store_true", help="print the kernels that are worth a look as Markdown, on one screen, for a pull request")
     takes_store(compare)
     takes_programs(compare)
 
@@ -283,11 +326,11 @@ def parser():
 
     tried = command("self-test", command_self_test,
                     "try on this machine whether planted slowdowns are found and equal builds pass",
-                    " Takes ten minutes; gives the best answer at high priority (nice -n -15).")
+                    " Takes half an hour; gives the best answer at high priority (nice -n -15).")
     tried.add_argument("--same", type=positive, default=20, metavar="N",
                        help="comparisons of this build with itself (default: %(default)s)")
-    tried.add_argument("--planted", type=positive, default=10, metavar="N",
-                       help="comparisons with a build of which one kernel is 10 %% slower (default: %(default)s)")
+    tried.add_argument("--planted", type=positive, default=5, metavar="N",
+                       help="comparisons with builds of which one kernel is 1, 2, 5, 10 %% slower, of each (default: %(default)s)")
     tried.add_argument("--suite", default="standard", help=suites)
     takes_programs(tried)
 

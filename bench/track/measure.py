@@ -12,10 +12,10 @@ import tempfile
 import machine
 
 SUITES = {
-    # What a change of any kernel, of the set-up or of the output shows in, on one thread.
-    "standard": r"row-stream/(avx512|avx2|whole-pairs)/steady/bumpy/faces:1000/depth:[35]/threads:1|"
-                r"row-stream/avx2/scratch/bumpy/faces:1000/depth:3/|sliding-window/steady/bumpy/faces:200/depth:[35]/threads:1",
-    "quick": r"row-stream/avx2/steady/bumpy/faces:1000/depth:[35]/threads:1|sliding-window/steady/bumpy/faces:200/depth:3/threads:1",
+    # What every engine does on the best targets and on AVX2, on one thread.
+    "standard": r"^(?!naive)(?!.*(sse4|scalar|/4/|threads:2|two-threads))",
+    "quick": r"row-stream/avx2/steady/.*/depth:[35]/threads:1|^sliding-window/steady/.*/depth:3|frame/row-stream/patches$",
+    "all": "",
 }
 
 
@@ -25,6 +25,20 @@ class MeasureError(Exception):
 
 def matches(pattern, name):
     return re.search(pattern, name) is not None
+
+
+class Planted:
+    """The programs of a build of which one kernel function is slower, as bench/cases/planted_kernels.cpp takes it."""
+
+    def __init__(self, programs, plant):
+        self.folder, self.environment = programs / "planted", {"LIMITCHECK_PLANT": plant}
+
+    def __truediv__(self, name):
+        return self.folder / name
+
+
+def environment_of(programs):
+    return getattr(programs, "environment", {})
 
 
 def run_program(command, environment=None):
@@ -39,15 +53,6 @@ def run_program(command, environment=None):
     return done.stdout, done.stderr
 
 
-def time_once(programs, pattern, repetitions, min_time):
-    """The JSON of Google Benchmark, verbatim, repetitions interleaved at random."""
-    with tempfile.NamedTemporaryFile(suffix=".json") as out:
-        run_program([str(programs / "throughput_bench"), f"--benchmark_filter={pattern}",
-                     f"--benchmark_repetitions={repetitions}", "--benchmark_enable_random_interleaving=true",
-                     f"--benchmark_min_time={min_time}", f"--benchmark_out={out.name}", "--benchmark_out_format=json"])
-        return json.load(out)
-
-
 def counted_cases(programs):
     """(what the build is, [cases])."""
     lines = run_program([str(programs / "instruction_case")])[0].splitlines()
@@ -57,7 +62,8 @@ def counted_cases(programs):
 def callgrind(programs, case, profile):
     # The environment lies on the stack and moves it, and with it what the C library does by alignment.
     return run_program(["valgrind", "--tool=callgrind", "--collect-atstart=no", f"--callgrind-out-file={profile}",
-                        str(programs / "instruction_case"), case], {"PATH": os.environ.get("PATH", os.defpath)})[1]
+                        str(programs / "instruction_case"), case],
+                       {"PATH": os.environ.get("PATH", os.defpath), **environment_of(programs)})[1]
 
 
 def instructions_of(programs, case):
@@ -91,7 +97,10 @@ def functions_of(programs, case):
 
 def instruction_counts(programs, progress, pattern=""):
     """{case: instructions}, of the cases that match."""
-    cases = [case for case in counted_cases(programs)[1] if matches(pattern, case)]
+    return counts_of(programs, [case for case in counted_cases(programs)[1] if matches(pattern, case)], progress)
+
+
+def counts_of(programs, cases, progress):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         counts = {}
         for case, count in zip(cases, pool.map(lambda c: instructions_of(programs, c), cases)):
@@ -102,7 +111,24 @@ def instruction_counts(programs, progress, pattern=""):
 
 def identity(programs):
     """Machine, compiler, flags and targets of a build, without measuring it."""
-    return machine.identity(time_once(programs, "^write-only/first-level", 1, 0.001)["context"])
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        run_program([str(programs / "throughput_bench"), "--benchmark_filter=^write-only/first-level", "--benchmark_min_time=0.001",
+                     f"--benchmark_out={out.name}", "--benchmark_out_format=json"])
+        return machine.identity(json.load(out)["context"])
+
+
+def kernel_calls(programs, program):
+    """{kernel function: {case: calls}} of a run of each case of timing_turns or instruction_case."""
+    counting = Planted(programs, "calls")
+    cases = run_program([str(counting / program)])[0].splitlines()[1:]
+    calls = {}
+    for case in cases:
+        for line in run_program([str(counting / program), case], {**os.environ, **counting.environment})[1].splitlines():
+            _, function, number = line.split()
+            calls.setdefault(function, {})
+            if int(number) > 0:
+                calls[function][case] = int(number)
+    return calls
 
 
 def commit_of(folder):
@@ -112,18 +138,18 @@ def commit_of(folder):
         return "unknown"
 
 
-def measure(programs, suite="standard", repetitions=6, rounds=2, min_time=0.05, counts=True, progress=lambda text: None):
-    """A record: identity, key, label, rounds of verbatim timings, exact counts."""
+def measure(programs, time_once, suite="standard", repetitions=6, rounds=2, counts=True, progress=lambda text: None):
+    """A record: identity, key, label, rounds of timings as turns.time_once makes them, exact counts."""
     programs = pathlib.Path(programs)
     timings = []
     for round_ in range(rounds):
         progress(f"timing, round {round_ + 1} of {rounds}")
-        timings.append(time_once(programs, SUITES.get(suite, suite), repetitions, min_time))
-    identity = machine.identity(timings[0]["context"])
+        timings.append(time_once(programs, SUITES.get(suite, suite), repetitions))
+    of_build = identity(programs)
     return {
         "format": 1,
-        "identity": identity,
-        "key": machine.key(identity),
+        "identity": of_build,
+        "key": machine.key(of_build),
         "commit": commit_of(pathlib.Path(__file__).parent),
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "suite": suite,

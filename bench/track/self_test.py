@@ -1,71 +1,122 @@
 # SPDX-License-Identifier: MIT
 """Would the tracker notice, and does it cry wolf? Tried out on this machine: a build against itself, and against builds of
-which one kernel (row streaming, rows overwritten) runs a part of its batches twice."""
+which one function of one kernel is slower. Which cases call a function is counted, not read from their names."""
+import os
+import random
+
 import decide
 import measure
 import turns
 
-PLANTED_KERNEL = r"^row-stream/(avx|sse|scalar)"  # the routes that the planted builds slow down
-COUNT_TRIALS = 3
+DOUBLED_CASES = 4  # of those that call a function, its greatest users first
+DOUBLED_BLOCKS = 3
+SHARES = (.01, .02, .05, .1)
 
 
 def say(text=""):
     print(text, flush=True)
 
 
-def counts(programs, progress):
-    """A planted 5 % by instruction counts: (cases of the kernel, caught, other cases, alarms among them) in all trials."""
-    slow = programs / "planted" / "5"
-    rows = []
-    for _ in range(COUNT_TRIALS):
-        a, b = ({"instructions": measure.instruction_counts(side, progress)} for side in (programs, slow))
-        rows += decide.judge_counts(a, b)
-    progress("")
-    kernel = [r for r in rows if measure.matches(PLANTED_KERNEL, r["name"])]
-    others = [r for r in rows if r not in kernel]
-    ratios = [r["ratio"] for r in kernel]
-    caught = sum(r["verdict"] == "more" for r in kernel)
-    alarms = sum(r["verdict"] != "" for r in others)
-    say(f"planted 5 %, instruction counts, {COUNT_TRIALS} trials: {caught} of {len(kernel)} cases of the kernel caught "
-        f"({min(ratios) - 1:+.1%} to {max(ratios) - 1:+.1%}); of {len(others)} other cases {alarms} alarms")
-    return caught == len(kernel) and alarms == 0
+def best_users(cases, most):
+    """The cases that call a function most, those whose time is mostly its own before frames."""
+    return sorted(cases, key=lambda case: ("frame" in case, -cases[case], case))[:most]
 
 
-def times(programs, other, trials, suite, what, progress):
-    """[rows of each comparison], each summed up in a line."""
-    say(f"{what}, times, {trials} comparisons:")
-    results = []
-    for trial in range(trials):
-        rows, _, _ = turns.compare(programs, other, suite,
-                                   progress=lambda text, t=trial: progress(f"{what} {t + 1} of {trials}: {text}"))
+def doubled(programs, calls, rng, progress):
+    """Every function of every kernel at twice its time: whether a case that calls it is found slower, and none that does not."""
+    every = sorted({case for cases in calls.values() for case in cases})
+    missed, alarms = [], 0
+    for number, (function, cases) in enumerate(calls.items(), 1):
+        users, others = best_users(cases, DOUBLED_CASES), [case for case in every if case not in cases]
+        looked_at = users + rng.sample(others, min(2, len(others)))
+        rows = turns.rows_of(programs, measure.Planted(programs, f"{function}=1"), looked_at, rng, blocks=DOUBLED_BLOCKS,
+                             progress=lambda text, n=number: progress(f"doubled {n} of {len(calls)}: {text}"))
+        found = [row for row in rows if row["verdict"] == "slower" and row["name"] in users]
+        alarms += sum(row["verdict"] != "" for row in rows if row["name"] not in users)
+        missed += [] if found else [function]
         progress("")
-        results.append(rows)
-        found = [r for r in rows if r["verdict"]]
-        apart = max(rows, key=lambda r: abs(r["ratio"] - 1))
-        say(f"  {trial + 1:2}  {len(found)} different; furthest from 1: {apart['ratio']:.3f} {apart['name']}")
-        for r in found:
-            say(f"        {r['verdict']} {r['ratio']:.3f}, p {r['p']:.1e}  {r['name']}")
-    return results
+        most = max((row["ratio"] for row in rows if row["name"] in users), default=1)
+        say(f"  {function:40} {len(found)} of {len(users)} cases slower, up to {most:.2f}{'' if found else '  MISSED'}")
+    say(f"twice the time: {len(calls) - len(missed)} of {len(calls)} functions found by times; {alarms} alarms in cases that do not "
+        "call them")
+    return not missed and alarms == 0
 
 
-def run(programs, same, slower, suite, progress):
-    """Prints the table; true if all held."""
-    held = [counts(programs, progress)]
-    nulls = times(programs, programs, same, suite, "the same build", progress)
-    alarms = sum(any(r["verdict"] for r in rows) for rows in nulls)
-    allowed = max(1, same // 20)
-    held.append(alarms <= allowed)
+def instructions_for(programs, function, case, before, progress):
+    """What a call of the function must take more so that the case takes all of its instructions once more."""
+    pilot = 1000
+    after = measure.counts_of(measure.Planted(programs, f"{function}=+{pilot}"), [case], progress)[case]
+    return pilot * before / (after - before)
 
-    planted = times(programs, programs / "planted" / "10", slower, suite, "planted 10 %", progress)
-    steady = [[r for r in rows if measure.matches(PLANTED_KERNEL, r["name"]) and "/steady/" in r["name"]]
-              for rows in planted]
-    caught = sum(any(r["verdict"] == "slower" for r in rows) for rows in steady)
-    each = [r for rows in steady for r in rows]
-    wrong = sum(r["verdict"] != "" for rows in planted for r in rows if not measure.matches(PLANTED_KERNEL, r["name"]))
-    held.append(10 * caught >= 9 * slower)
 
-    say(f"the same build: {alarms} of {same} comparisons raise an alarm (at most {allowed})")
-    say(f"planted 10 %: caught in {caught} of {slower} comparisons (at least 9 of 10); single cases "
-        f"{sum(r['verdict'] == 'slower' for r in each)} of {len(each)}; of other kernels {wrong} alarms")
+def by_counts(programs, calls, progress):
+    """Every function that is counted, each call longer by so many instructions that a case grows by a share."""
+    chosen = {function: best_users(cases, 1)[0] for function, cases in calls.items() if cases}
+    before = measure.counts_of(programs, sorted(set(chosen.values())), progress)
+    whole = {function: instructions_for(programs, function, case, before[case], progress) for function, case in chosen.items()}
+    held = True
+    for share in SHARES:
+        found, growth = 0, []
+        for function, case in chosen.items():
+            plant = f"{function}=+{round(share * whole[function])}"
+            with_plant = measure.counts_of(measure.Planted(programs, plant), [case], progress)
+            row, = decide.judge_counts({"instructions": {case: before[case]}}, {"instructions": with_plant})
+            found += row["verdict"] == "more"
+            growth.append(row["ratio"] - 1)
+        progress("")
+        say(f"  {share:4.0%} by instructions: {found} of {len(chosen)} functions found ({min(growth):+.2%} to {max(growth):+.2%})")
+        held = held and found == len(chosen)
+    return held
+
+
+def by_times(programs, calls, trials, rng, progress):
+    """The best kernel of each scheme slower by a share of its time: its cases of whole meshes."""
+    best = [next(f for f in calls if f.endswith(name)) for name in ("/run", "/quads")]
+    held = True
+    for share in SHARES:
+        found = all_cases = 0
+        for trial in range(trials):
+            for function in best:
+                cases = [case for case in calls[function] if "/steady/" in case and case.endswith("threads:1")
+                         and function.split("/")[1] in case.split("/")][:DOUBLED_CASES]
+                rows = turns.rows_of(programs, measure.Planted(programs, f"{function}={share}"), cases, rng,
+                                     progress=lambda text, t=trial: progress(f"{share:.0%} by times, {t + 1} of {trials}: {text}"))
+                found += sum(row["verdict"] == "slower" for row in rows)
+                all_cases += len(rows)
+        progress("")
+        say(f"  {share:4.0%} by times:        {found} of {all_cases} cases found")
+        held = held and (share < 2 * decide.TIME_EFFECT or 10 * found >= 9 * all_cases)
+    return held
+
+
+def nothing_planted(programs, same, suite, progress):
+    alarms = 0
+    for trial in range(same):
+        rows, _, _ = turns.compare(programs, programs, suite,
+                                   progress=lambda text, t=trial: progress(f"the same build {t + 1} of {same}: {text}"))
+        found = [row for row in rows if row["verdict"]]
+        alarms += bool(found)
+        apart = max(rows, key=lambda row: abs(row["ratio"] - 1))
+        progress("")
+        say(f"  {trial + 1:2}  {len(rows)} cases, {len(found)} different; furthest from 1: {apart['ratio']:.3f} {apart['name']}")
+        for row in found:
+            say(f"      {row['verdict']} {row['ratio']:.3f}, p {row['p']:.1e}  {row['name']}")
+    say(f"the same build: {alarms} of {same} comparisons raise an alarm")
+    return alarms == 0
+
+
+def run(programs, same, planted, suite, progress):
+    """Prints the tables; true if all held."""
+    rng = random.Random(1)
+    timed, counted = (measure.kernel_calls(programs, program) for program in ("timing_turns", "instruction_case"))
+    reached = {function: cases for function, cases in counted.items() if "avx512" not in function}
+    load = os.getloadavg()[0]
+    say(f"{len(timed)} functions of kernels, load {load:.1f}; each at twice its time:")
+    held = [doubled(programs, timed, rng, progress)]
+    say("slower by a share:")
+    held.append(by_counts(programs, reached, progress))
+    held.append(by_times(programs, timed, planted, rng, progress))
+    say(f"the same build, {same} comparisons of suite {suite}:")
+    held.append(nothing_planted(programs, same, suite, progress))
     say("self-test " + ("held" if all(held) else "FAILED"))
     return all(held)

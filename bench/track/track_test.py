@@ -111,6 +111,19 @@ totals: 1001
     def test_a_profile_is_read_as_the_instructions_of_each_function_itself(self):
         self.assertEqual(measure.own_costs(self.PROFILE), {"window(int)": 700, "limit": 300, "below 'quoted'": 1})
 
+    def test_a_function_is_named_by_what_a_reader_knows(self):
+        long = ("limitcheck::fast::row_stream::N_AVX2::Stream<limitcheck::fast::row_stream::N_AVX2::LaneNumber<hwy::N_AVX2::Simd<float, 8ul, 0> >, "
+                "Target<float> >::run(int, std::function<void (int)> const&)'2")
+        self.assertEqual(decide.short_function(long), "Stream::run")
+        self.assertEqual(decide.short_function("malloc"), "malloc")
+        self.assertLessEqual(len(decide.short_function("x" * 600)), 48)
+
+    def test_a_case_names_its_kernel(self):
+        for case, kernel in (("row-stream/avx2/steady/bumpy/faces:1000/depth:3/threads:1", "row-stream/avx2/bumpy"),
+                             ("quads/row-stream/avx2/4/depth:5", "quads/row-stream/avx2/4"), ("set-up/naive", "set-up/naive"),
+                             ("frame/row-stream/patches", "frame/row-stream/patches")):
+            self.assertEqual(decide.kernel_of(case), kernel)
+
     def test_the_functions_that_moved_most_come_first(self):
         moved = decide.moved_functions({"a": 100, "b": 100, "gone": 5}, {"a": 101, "b": 150, "new": 7}, 3)
         self.assertEqual(moved, [("b", 100, 150), ("new", 0, 7), ("gone", 5, 0)])
@@ -123,7 +136,7 @@ class InTurns(unittest.TestCase):
         rng = random.Random(seed)
         rounds = iter(factors)
 
-        def one_round(a, b, cases, _, progress, name):
+        def one_round(a, b, cases, _, progress, name, blocks):
             factor = next(rounds)
             return {case: launches(rng, factor) for case in cases}
         with mock.patch.object(turns, "build_and_cases", lambda folder: ("GNU", ["a/steady", "b/scratch"])), \
@@ -198,8 +211,41 @@ class CommandLine(unittest.TestCase):
         self.keep("b", record(2, instructions=1_100_000))
         _, out, _ = self.run_it("compare", "a", "b", "--markdown")
         self.assertIn("**1 regression**", out)
-        self.assertIn("| more | 1.100 | 1000000 → 1100000 | `case` |", out)
+        self.assertIn("| more |  | 1.100 | `case` | 1 of 1 |", out)
         self.assertNotIn("`window`", out)
+
+    def many(self, factor):
+        return {**record(1), "instructions": {f"kernel-{k}/depth:{d}": int(factor * 1_000_000) for k in range(50) for d in (3, 5)}}
+
+    def test_a_table_for_a_pull_request_fits_one_screen_whatever_moved(self):
+        self.keep("a", self.many(1))
+        self.keep("b", self.many(1.2))
+        _, out, _ = self.run_it("compare", "a", "b", "--markdown")
+        self.assertLessEqual(len(out.splitlines()), 30)
+        self.assertIn("100 of 101 cases worth a look", out)
+        self.assertIn("and 30 kernels more", out)
+
+    def test_a_comparison_has_a_line_for_each_kernel_or_each_case(self):
+        self.keep("a", self.many(1))
+        self.keep("b", self.many(1.2))
+        _, out, _ = self.run_it("compare", "a", "b")
+        lines = [line for line in out.splitlines() if "kernel-" in line]
+        self.assertEqual(len(lines), 50)
+        self.assertEqual(max(map(len, lines)) < 80, True, lines)
+        self.assertIn("2 of 2 cases", lines[0])
+        _, each, _ = self.run_it("compare", "a", "b", "--each")
+        self.assertEqual(sum("kernel-" in line for line in each.splitlines()), 100)
+
+    def test_records_of_0_1_are_compared_under_the_names_of_today(self):
+        old = record(1)
+        for timed in old["rounds"]:
+            for run in timed["benchmarks"]:
+                run["run_name"] += "/real_time"
+        self.keep("old", old)
+        self.keep("new", record(2))
+        code, out, _ = self.run_it("compare", "old", "new")
+        self.assertEqual((code, "only in" in out), (0, False), out)
+        self.assertEqual(len(trend.history([old, record(2)])["time", "window"]), 2)
 
     def test_what_it_writes_can_be_read_by_others(self):
         old = os.umask(0o022)

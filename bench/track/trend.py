@@ -31,7 +31,7 @@ middle half of them; instruction counts are exact. Axes do not start at zero; th
 
 def times_of(record):
     """{benchmark: (median, quartiles, unit)} over all rounds."""
-    unit = {run["run_name"]: run.get("time_unit", "ms") for timing in record["rounds"] for run in timing["benchmarks"]}
+    unit = {run["run_name"].removesuffix("/real_time"): run.get("time_unit", "ms") for timing in record["rounds"] for run in timing["benchmarks"]}
     values = {}
     for timing in record["rounds"]:
         for name, some in decide.samples(timing).items():
@@ -110,7 +110,7 @@ def panel(name, points, order):
          "scale": {"domain": [0.9 * min(p["value"] for p in points), 1.1 * max(p["value"] for p in points)], "clamp": True}}
     x = {"field": "record", "type": "ordinal", "scale": {"domain": order}, "title": "record",
          "axis": {"labelAngle": -45, "labelOverlap": "greedy" if len(order) > 12 else False}}
-    short = name.removesuffix("/real_time").removesuffix("/threads:1")
+    short = name.removesuffix("/threads:1")
     title = re.sub(r"/(?=steady|scratch)", "\n", short).split("\n")  # in two lines
     known = {p["record"]: p for p in points}
     moved = [points[k]["record"] for k in steps(points)]

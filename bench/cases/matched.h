@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Speed at equal error: who computes less exactly pays for it here.
+#pragma once
+
+#include <functional>
+
+#include "data/control_mesh.h"
+#include "data/scheme.h"
+#include "fast/frame/sink.h"
+#include "fast/plan/depth.h"
+
+namespace limitcheck::bench {
+
+/// The bounds that points have to keep: of positions in diagonals of the bounding box, and of unit normals in rad.
+struct PointBound {
+  double position = 0x1p-22, normal = 0x1p-16;
+};
+
+/// The largest errors of a frame's vertices against the limit surface of the control mesh in double (StamError).
+/// The frame has provenance.
+PointBound worst_errors(const data::ControlMesh& mesh, data::Scheme scheme,
+                        const fast::DrawList<float>& frame);
+
+/// How far, on the screen of `camera` and in pixels, the middle of a drawn triangle is from the point of the limit
+/// surface at the same parameter: not exceeded by 99 % of the pixels that triangles seen from the front cover (each
+/// counted with its own triangles, hidden ones as well). The mesh has triangles or quads; the frame has provenance.
+double pixel_error(const data::ControlMesh& mesh, data::Scheme scheme, const fast::Camera& camera,
+                   const fast::DrawList<float>& frame);
+
+/// The largest target of 2^(k/4), k = 32 .. -4, whose error is at most `pixels`, by bisection; 0: none is.
+///   error_at   of a strategy with that target; does not fall as targets grow, but by little
+double matching_target(double pixels, const std::function<double(double target)>& error_at);
+
+}  // namespace limitcheck::bench

@@ -189,7 +189,7 @@ Part = collections.namedtuple("Part", "title make files needs", defaults=((),))
 def parts():
     yield "spheres", Part("frame rates, counts and pictures of bumpy spheres", lambda shop: shop.reproduction("spheres"), ["spheres.json"])
     yield "matched", Part("strategies at equal error", lambda shop: shop.reproduction("matched"), ["matched.json"])
-    yield "timings", Part("what the text says of time", lambda shop: shop.reproduction("timings"), ["timings.json"], ["spheres"])
+    yield "timings", Part("what the text says of time", lambda shop: shop.reproduction("timings"), ["timings.json"], ["spheres", "matched"])
     for name, title in (("figure-11", "frames per second"), ("figure-12", "triangles and culled faces")):
         yield name, Part(f"{name}: {title}", chart(name, "spheres", "rows"), [f"{name}.svg"], ["spheres"])
     yield "frames", Part("frames from the camera to triangles, and from one to the next", frames, ["frames.json"])

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
   bool quick = false;
   std::vector<std::string> parts, meshes, wanted, names = bench::picture_names();
   names.insert(names.end(), {"model", "spheres", "matched", "timings", "shapes", "maps"});
-  app.add_option("PART", parts, "What to make; timings reads what spheres has left")
+  app.add_option("PART", parts, "What to make; timings reads what spheres and matched have left")
       ->required()
       ->check(CLI::IsMember(names));
   app.add_option("-o,--output", folder, "Folder for the results")->capture_default_str();
@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
       } else if (part == "matched") {
         save(part, bench::matched_error_table(quick));
       } else if (part == "timings") {
-        save(part, bench::timings(read(folder / "spheres.json", "spheres"), quick));
+        save(part, bench::timings(read(folder / "spheres.json", "spheres"),
+                                  read(folder / "matched.json", "matched"), quick));
       } else {
         bench::draw_picture(part, folder);
       }

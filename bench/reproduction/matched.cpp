@@ -3,6 +3,7 @@
 // [C74, T3]
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -35,7 +36,8 @@ constexpr Family kFamilies[] = {
     {"combined, stitched", fast::Strategy::kCombined, fast::Repair::kStitch},
 };
 
-/// What a family needs for that error: {triangles, frames_per_second}, or null if no setting reaches it.
+/// What a family needs for that error: {triangles, frames_per_second, spread}, or null if no setting reaches it. The
+/// spread is the widest of its settings.
 Json needed(const std::vector<Json>& curve, const char* measure, double error) {
   Json result;
   for (const char* what : {"triangles", "frames_per_second"}) {
@@ -45,6 +47,9 @@ Json needed(const std::vector<Json>& curve, const char* measure, double error) {
     if (!value) return nullptr;
     result[what] = *value;
   }
+  double widest = 1;
+  for (const Json& p : curve) widest = std::max(widest, p["spread"].get<double>());
+  result["spread"] = widest;
   return result;
 }
 
@@ -67,11 +72,13 @@ Json matched_error_table(bool quick) {
       fast::CrackOptions cracks;
       cracks.repair = family.repair;
       const verify::Seen seen = judge.see(options, cracks);
+      const Json timed = timing(turned);
       families.back().second.push_back({{"faces", faces},
                                         {"family", family.name},
                                         {"setting", setting},
                                         {"triangles", seen.triangles},
-                                        {"frames_per_second", timing(turned)["frames_per_second"]},
+                                        {"frames_per_second", timed["frames_per_second"]},
+                                        {"spread", timed["spread"]},
                                         {"picture", picture(seen.difference)}});
     };
     for (const Family& family : kFamilies) {

@@ -24,7 +24,8 @@ nlohmann::ordered_json sphere_table(bool quick);
 
 /// `curves`: triangles, frames per second and pictures of uniform depth and of the adaptive strategies from
 /// coarse to fine settings, with the paper's fans and with stitched borders. `rows`: what each needs to look
-/// as good as uniform depth 2, 3 or 4, by each measure. quick: two sizes.
+/// as good as uniform depth 2, 3 or 4, by each measure, and how far repetitions of its times differed. quick: two
+/// sizes.
 nlohmann::ordered_json matched_error_table(bool quick);
 
 /// A bumpy sphere tessellated by the combined strategy, triangle by triangle, with depth, kind and the errors
@@ -41,9 +42,11 @@ nlohmann::ordered_json shapes(const std::vector<std::string>& names);
 /// verify::SubjectError.
 nlohmann::ordered_json maps(std::vector<std::string> wanted);
 
-/// What the text says of time, measured: an array of id, outcome ("as the text says", "not as the text says"
-/// or "could not be measured"), figures and series, [{name, unit, at, values}].
-nlohmann::ordered_json timings(const nlohmann::ordered_json& spheres, bool quick);
+/// What the text says of time, measured: an array of id, outcome ("as the text says", "not as the text says",
+/// "could not be measured", or "depends" of several of which some are one and some the other), figures and series,
+/// [{name, unit, at, values}].
+nlohmann::ordered_json timings(const nlohmann::ordered_json& spheres, const nlohmann::ordered_json& matched,
+                               bool quick);
 
 /// Of a quantity that the text says exceeds a bound, measured with repetitions that differed by a factor
 /// `spread`: what their disagreement leaves to be said. The words are those of timings().

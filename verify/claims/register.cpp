@@ -74,6 +74,7 @@ std::string errata() {
     const char *verdict, *title, *column;
   } sections[]{{"misprint", "Wrong as printed", "correction"},
                {"refuted", "Not true", "what is true"},
+               {"admitted by the paper", "No guarantee, as the paper says itself", "what is true"},
                {"depends", "True or not by what is left open", "on what it depends"},
                {"ambiguous", "Left open by the text", "what is missing, and our reading"}};
   const auto cell = [](std::string text) {

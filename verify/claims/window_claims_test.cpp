@@ -2,14 +2,17 @@
 // Section 4.3: what the sliding window computes, stores and hands out. [C18-C20, C43-C55]
 #include "fast/window/sliding_window.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <vector>
 
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
+#include "reference/loop/naive.h"
 
 namespace limitcheck::fast {
 
@@ -148,8 +151,45 @@ TEST(Sec43_Time, TheCountedVectorsAreTheStoredVectors) {
   }
 }
 
+// "Computes vertices anew": three for each triangle, of which a strip sends one; or keeps them all, four times as
+// many with each level, where a window holds twice as many.
+TEST(Sec4_Recursion, ComputesVerticesAnewAndSendsSingleTriangles) {
+  RecordProperty("claim", "C18");
+  const data::ControlMesh mesh = data::icosahedron();
+  const reference::NaiveSubdivider<double> naive(mesh);
+  const std::int32_t other = Adjacency(mesh).twin(0) / 3;  // with face 0 the pair of half-edge 0
+  for (int m = 1; m <= 6; ++m) {
+    std::int64_t sent = 0;
+    std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> distinct;
+    for (const std::int32_t face : {0, other})
+      naive.tessellate(static_cast<std::size_t>(face), m, [&](const auto& leaf) {
+        sent += 3;
+        for (const auto& corner : leaf) distinct.insert({face, corner.i, corner.j});
+      });
+    const std::int64_t k = power(2, m);
+    EXPECT_EQ(sent, 6 * power(4, m));
+    EXPECT_EQ(static_cast<std::int64_t>(distinct.size()), (k + 1) * (k + 2)) << "of the two faces apart";
+    const double anew = static_cast<double>(sent) / static_cast<double>(distinct.size());
+    EXPECT_GT(anew, m == 1 ? 1.9 : 2.9 - 3. / static_cast<double>(k));
+    const double strips = static_cast<double>(run<CountingWindow>(mesh, m).counts.strips) *
+                          (2 * static_cast<double>(k) + 2) / static_cast<double>(sent);
+    if (m == 3 || m == 5) {
+      RecordProperty(fmt::format("times_each_vertex_is_computed_at_depth_{}", m),
+                     fmt::format("{:.2f}", anew));
+      RecordProperty(fmt::format("strips_send_of_single_triangles_at_depth_{}", m),
+                     fmt::format("{:.3f}", strips));
+    }
+    EXPECT_LT(strips, .51);
+    const auto window = [](int depth) {
+      return static_cast<double>(SlidingWindow<float>(depth, 6).allocated_vectors());
+    };
+    EXPECT_LT(window(m + 1) / window(m), 2.01);
+    EXPECT_GT(static_cast<double>((2 * k + 1) * (2 * k + 2)) / static_cast<double>((k + 1) * (k + 2)), 2.4);
+  }
+}
+
 TEST(Sec43_Strips, AreTwoToTheMOfTwiceTwoToTheMTriangles) {
-  RecordProperty("claim", "C18 C20 C50");
+  RecordProperty("claim", "C20 C50");
   for (int m = 0; m <= 7; ++m) {
     const CountedRun r = run<CountingWindow>(data::icosahedron(), m);
     EXPECT_EQ(r.counts.strips, power(2, m));
@@ -172,20 +212,27 @@ TEST(Sec43_LimitPoints, AreEvaluatedTwiceUnlessRowsAreCarriedOver) {
   }
 }
 
+// The corrected formulas one after the other: what the pseudo-code does (C53), and that by the number of limit
+// points (C54), which is what has to be linear (C55).
 TEST(Sec43_Time, IsLinearInTheLimitPointsWithTheFourOutsideTheSquare) {
   RecordProperty("claim", "C54 C55");
   for (int m = 0; m <= 7; ++m) {
     const double k = static_cast<double>(power(2, m)), n = (k + 1) * (k + 1), valence = 50;
-    double printed_sum = 0;
+    double printed_sum = 0, work = 0;
     for (int l = 0; l <= m; ++l) {
       const double row = static_cast<double>(power(2, l));
       printed_sum += row * (5 * (row + 1) + 4 * valence);
+      if (l > 0) work += row / 2 * (5 * (row + 1) + 4 * valence);
     }
     const double root = std::sqrt(n);
-    EXPECT_NEAR(printed_sum, 20. / 3 * n + (8 * valence - 10. / 3) * root - 12 * valence - 10, 1e-6);
+    EXPECT_NEAR(work, 10. / 3 * n + (4 * valence - 5. / 3) * root - 8 * valence - 10, 1e-6)
+        << "C54 with C53's count";
+    EXPECT_NEAR(printed_sum, 2 * work + 10 + 4 * valence, 1e-6) << "C53";
     const double as_printed =
         5. / 3 * 16 * (root - 1) * (root - 1) + (5 + 4 * valence) * 2 * (root - 1) - 20. / 3 - 4 * valence;
     EXPECT_NEAR(as_printed - printed_sum, 20 * (root - 1) * (root - 1), 1e-6) << "square of the 4";
+    if (m >= 2 && m <= 5)
+      RecordProperty(fmt::format("work_per_limit_point_at_depth_{}", m), fmt::format("{:.1f}", work / n));
   }
   // by counting, at true valence: vectors stored per limit point settle down
   const auto per_point = [](int m) {

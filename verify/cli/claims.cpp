@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -11,6 +12,7 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/screen.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/columns.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -108,22 +110,25 @@ std::string to_json(const std::vector<ClaimResult>& results) {
 }
 
 std::string to_table(const std::vector<ClaimResult>& results) {
-  std::string out = fmt::format("{:<4} {:<14} {:<14} {:<10} {}\n", "id", "place", "we conclude", "our tests",
+  const std::size_t width = screen_width(STDOUT_FILENO);
+  std::string out = fmt::format("{:<4} {:<13} {:<21} {:<9} {}\n", "id", "place", "we conclude", "our tests",
                                 "the paper says");
   for (const ClaimResult& r : results) {
-    out += fmt::format("{:<4} {:<14} {:<14} {:<10} {}\n", r.claim->id, r.claim->place, r.claim->verdict,
-                       colour(r.outcome), r.claim->statement);
+    out += verify::wrapped(fmt::format("{:<4} {:<13} {:<21} {:<9}  {}\n", r.claim->id, r.claim->place,
+                                       r.claim->verdict, colour(r.outcome), r.claim->statement),
+                           width, 6);
     for (const std::string& line : {r.claim->note, r.finding, r.message.substr(0, r.message.find('\n'))})
-      if (!line.empty()) out += fmt::format("     {}\n", line);
+      if (!line.empty()) out += verify::wrapped(fmt::format("     {}\n", line), width, 5);
   }
   std::string conclusions;
   for (const auto& [verdict, count] : verdicts(results))
     if (count > 0) conclusions += fmt::format("{}{} {}", conclusions.empty() ? "" : ", ", verdict, count);
   Coverage c = coverage(results);
-  out +=
+  out += verify::wrapped(
       fmt::format("\n{} claims of the paper: {}\nour tests: green {}, red {}, not run {}, none {}\n",
                   c.claims, conclusions, c.outcomes[ClaimOutcome::kHeld], c.outcomes[ClaimOutcome::kNotHeld],
-                  c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]);
+                  c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]),
+      width, 2);
   return out;
 }
 

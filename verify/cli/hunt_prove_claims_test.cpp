@@ -206,7 +206,7 @@ TEST_F(ClaimsCommand, ASignalLeavesNothingBehind) {
 
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {
   const Outcome o = run("claims C87", 2);
-  EXPECT_TRUE(says(o.err, "C01 to C86"));
+  EXPECT_TRUE(says(o.err, "C01 to C91"));
 }
 
 TEST_F(ClaimsCommand, WritesTheErrata) {

@@ -8,19 +8,21 @@ import re
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import page  # noqa: E402
 import parts  # noqa: E402
+import tables  # noqa: E402
 from parts import PARTS  # noqa: E402
 from record import Record  # noqa: E402
 
 EVIL = "<script>alert('x')</script> & co"
 
 
-def timing(fps):
-    return {"frames_per_second": fps, "frames": 1,
+def timing(fps, spread=1.1):
+    return {"frames_per_second": fps, "spread": spread, "frames": 1,
             "stages": {"heuristics": 0.1, "pairing": 0.1, "cracks": 0.1, "window": 0.2, "drawing": 0.5}}
 
 
@@ -34,8 +36,10 @@ RESULTS = {
                           {"id": "C79", "place": "7", "statement": "no perceivable difference", "verdict": "depends", "check": "A.C", "ran": True,
                            "held": True, "note": "On the settings.", "finding": "8.6 % are off.",
                            "measured": {"percent_off_200": "8.6", "percent_off_800": "11.5", "pixels": "60"}}]},
-    "audit": {"results": [{"subject": EVIL, "mesh": "m", "check": "positions", "status": "finding", "count": 1, "worst": 0.5, "bound": 1e-7,
-                           "unit": "", "witness": {"face": 3}},
+    "audit": {"causes": [{"number": 1, "severity": "high", "title": "Positions are off", "subjects": [EVIL], "rows": 1, "mesh": "m",
+                          "command": "limitcheck audit x"}],
+              "results": [{"subject": EVIL, "mesh": "m", "check": "positions", "status": "finding", "count": 1, "worst": 0.5, "bound": 1e-7,
+                           "unit": "", "witness": {"face": 3, "l1": "1/2", "l2": "0"}, "cause": 1},
                           {"subject": "b", "mesh": "m", "check": "positions", "status": "held", "count": 1, "worst": 0, "bound": 1,
                            "unit": "", "witness": None}]},
     "timings": {"load": 1.5, "rows": [{"id": "T7", "outcome": "could not be measured", "figures": EVIL, "series": [
@@ -50,7 +54,7 @@ RESULTS = {
     "proofs": {"rows": [{"group": "g", "kernel": "k", "map": "equal", "topology": "3 3 3", "depths": [0, 2], "points": 5,
                          "arithmetic": "exact", "bound": 1e-6, "worst": 1e-7, "digits": None}]},
     "throughput": {"benchmarks": [{"name": "a/real_time", "points/s": 1e6, "real_time": 2.0, "time_unit": "ms", "peak": 2**20}]},
-    "frames": {"benchmarks": [{"name": f"{form}/uniform:3/faces:800/threads:1/real_time", "frames/s": 100.0 * k,
+    "frames": {"benchmarks": [{"name": f"{form}/uniform:3/faces:800/threads:1", "frames/s": 100.0 * k, "real_time": 1.0, "cpu_time": 1.0,
                                "triangles/s": 100.0 * k * triangles} for k, form, triangles in ((1, "draw", 50000), (3, "sticky", 40000))]},
 }
 
@@ -190,10 +194,48 @@ class Page(unittest.TestCase):
         self.made(())
         self.assertIn("<td>far/uniform<td>2<td>3<td>", self.text)
 
-    def test_what_is_timed_on_the_wall_says_so(self):
+    def test_what_clock_a_time_is_of_is_said_beside_it(self):
         self.made()
         for section in ("frames", "throughput"):
-            self.assertIn("Time on the wall, each case once", self.text.partition(f"<section id={section}>")[2].partition("</section>")[0])
+            self.assertIn("Processor time of one thread", self.text.partition(f"<section id={section}>")[2].partition("</section>")[0])
+
+    def test_what_repetitions_contradict_is_not_measured(self):
+        self.assertEqual(tables.rate(123.0, tables.WIDEST), "123")
+        self.assertIn("not measured: 1.6", tables.rate(123.0, 1.6))
+        row = RESULTS["spheres"]["rows"][0]
+        with mock.patch.dict(row, sliding_window=timing(777.0, 2.5)):
+            self.made(("spheres",))
+        self.assertIn("not measured: 2.5", self.text)
+        self.assertNotIn("777", self.text)
+
+    def test_of_repetitions_the_least_by_the_clock_that_counts_is_kept(self):
+        runs = [{"name": "a/threads:1", "run_name": "a/threads:1", "run_type": "iteration", "cpu_time": c, "real_time": r, "frames/s": 1 / c}
+                for c, r in ((2.0, 9.0), (1.0, 50.0), (4.0, 8.0))]
+        runs += [{"name": "a/threads:1_mean", "run_name": "a/threads:1", "run_type": "aggregate", "cpu_time": 0.1, "real_time": 0.1}]
+        runs += [{"name": "b/threads:2/real_time", "run_type": "iteration", "cpu_time": c, "real_time": r} for c, r in ((1.0, 3.0), (2.0, 2.0))]
+        one, two = parts.best_repetitions(runs)
+        self.assertEqual((one["name"], one["frames/s"], one["spread"]), ("a/threads:1", 1.0, 4.0))
+        self.assertEqual((two["name"], two["real_time"], two["spread"]), ("b/threads:2", 2.0, 1.5))
+
+    def test_findings_are_told_by_their_causes_and_no_cell_says_none(self):
+        RESULTS["audit"]["results"].append({**RESULTS["audit"]["results"][0], "check": "written", "worst": None, "bound": None, "cause": 2})
+        self.addCleanup(RESULTS["audit"]["results"].pop)
+        (self.folder / "viewer.js").write_text("")
+        for name in ("model", "shapes"):
+            (self.folder / f"{name}.json").write_text("{}")
+        witness = {parts.place_key(RESULTS["audit"]["results"][0]): {"mesh": "m", "face": 3, "text": "here"}}
+        (self.folder / "witnesses.json").write_text(json.dumps(witness))
+        self.made(("audit",))
+        self.assertIn("1 root cause of 2 findings", self.text)
+        self.assertIn("Positions are off", self.text)
+        self.assertEqual(self.text.count("class=jump"), 1)
+        self.assertNotIn("<td>None", self.text)
+
+    def test_pictures_are_told_in_words(self):
+        self.draw_all()
+        self.made()
+        for words in re.findall(r"(?:alt|aria-label)='([^']*)'", self.text):
+            self.assertGreater(len(words), 40, words)
 
     def test_a_claim_that_did_not_run_is_not_called_held(self):
         self.made(("claims",))

@@ -52,7 +52,7 @@ def figures_of(claim):
 
 
 def timed(row):
-    kind = {"as the text says": "yes", "not as the text says": "no"}.get(row["outcome"], "open")
+    kind = {"as the text says": "yes", "not as the text says": "no"}.get(row["outcome"], "open")  # or "depends"
     series = "".join(table([text(s["unit"]), *(f"{at:g}" for at in s["at"])], [[text(s["name"]), *(number(float(v)) for v in s["values"])]])
                      for s in row["series"])
     return f"<p>This run: <b class={kind}>{text(row['outcome'])}</b>. {text(row['figures'])}.</p>{series}"

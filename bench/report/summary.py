@@ -12,7 +12,7 @@ WORDS = (
                  "an angle (30 degrees here)."),
     ("fans", "the paper's repair of cracks: a face with finer neighbours becomes a fan round its middle and loses its inner points. "
              "Stitched: ours, which keeps them."),
-    ("C01 to C86", "the statements of the paper that can be checked, in the order of its text."),
+    ("C01, C02, …", "the statements of the paper that can be checked, in the order of its text."),
     ("T1 to T10", "what a reproduction has to show: sentences about the paper's figures. Their verdicts are those of the claims."),
     ("we conclude", "what is true of the paper's sentence. Our test: whether the test behind that agrees today. A misprint whose test is green "
                     "is a misprint."),
@@ -34,7 +34,7 @@ def summary(claims):
     return ("<p>Müller and Havemann described in 2000 how Loop subdivision surfaces can be tessellated in every frame, with as much depth as "
             "the view needs. Here the claims of their paper are registered one by one, and those that have a test are "
             "checked by running it: formulas in exact arithmetic, pictures pixel by pixel against deep uniform "
-            "subdivision. Times are processor time where nothing else is said.</p>"
+            "subdivision.</p>"
             + (f"<p><b>{headline(claims)}</b></p>" if claims else "")
             + (f"<p>What a reader of the paper would not expect:</p><ol>{findings}</ol>" if findings else "")
             + f"<details><summary>What the words mean</summary><dl>{words}</dl></details>"

@@ -12,10 +12,17 @@ def text(value):
 
 
 def number(value, digits=3):
-    return f"{value:.{digits}g}" if isinstance(value, float) else text(value)
+    """Nothing for what is not there."""
+    return "" if value is None else f"{value:.{digits}g}" if isinstance(value, float) else text(value)
 
 
-def rate(value):
+WIDEST = 1.5  # repetitions that differ by more say nothing
+
+
+def rate(value, spread=1):
+    """A measured rate, unless its repetitions contradict each other."""
+    if spread > WIDEST:
+        return f"<span class=open>not measured: {spread:.1f}</span>"
     return f"{value:.3g}" if value < 1000 else f"{value:.0f}"
 
 
@@ -89,24 +96,28 @@ def audit(data, places):
         status = min((r["status"] for r in some), key=lambda s: rank.index(s) if s in rank else 0)
         return f"<span class='status {text(status)}'>{text(status)}</span>"
     rows = [[text(c), *(worst(cells[s, c]) if (s, c) in cells else "" for s in subjects)] for c in checks]
-    shown, bad = shown_findings(results)
-    lines = []
-    for r in shown:
-        w = r["witness"]
-        where = f"face {w['face']} ({w['l1']}, {w['l2']})" if isinstance(w, dict) and w.get("l1") is not None else (r.get("message") or "")
-        place = places.get(place_key(r))
-        button = (f"<button class=jump data-witness='{text(json.dumps(place))}'>show</button>" if place else "")
-        commands = "<br>".join(f"<code>{text(w[k])}</code>" for k in ("command", "reproduce") if isinstance(w, dict) and w.get(k))
-        lines.append([text(r["subject"]), text(r["check"]), text(r["mesh"]), number(r["worst"]), number(r["bound"]),
-                      text(r.get("unit") or ""), text(where), button, commands])
-    witnesses = table(["subject", "check", "mesh", "worst", "bound", "unit", "witness", "in the view", "again with"], lines)
     meshes = ", ".join(text(m["name"]) for m in data.get("meshes", []))
-    return (table(["check", *subjects], rows, f"The worst of all meshes: {meshes}")
-            + details(f"{bad} findings; the {len(shown)} worst with witnesses, at most three of a subject and check", witnesses))
+    return (table(["check", *subjects], rows, f"The worst of all meshes: {meshes}") + causes(data, places))
+
+
+def causes(data, places):
+    """What lies behind the findings, and the worst witness of each cause that the view can show."""
+    shown, bad = shown_findings(data["results"])
+    lines = []
+    for cause in data.get("causes", []):
+        rows = [r for r in shown if r.get("cause") == cause["number"] and place_key(r) in places]
+        button = f"<button class=jump data-witness='{text(json.dumps(places[place_key(rows[0])]))}'>show</button>" if rows else ""
+        lines.append([text(cause["number"]), text(cause["severity"]), text(cause["title"]), text(", ".join(cause["subjects"])),
+                      text(cause["rows"]), button, f"<code>{text(cause['command'])}</code>"])
+    return table(["", "severity", "cause", "subjects", "findings", "in the view", "again with"], lines,
+                 f"{len(lines)} root cause{'' if len(lines) == 1 else 's'} of {bad} findings; each finding: <code>limitcheck audit all --details</code>")
 
 
 PIXELS = ("Difference of the shade of each pixel, of 255, from deep uniform depth, seen from two sides by a rasteriser without a driver. "
           "A pixel that shows the surface in one of the pictures only counts as off by 255.")
+TIMED = (f"The least of three repetitions; where they differ by more than a factor of {WIDEST}, nothing is measured, and the factor "
+         "stands in its place.")
+ONE_THREAD = f"Processor time of one thread; the wall's where there are more. {TIMED}"
 ENGINES = (("sliding_window", "sliding window"), ("row_stream", "row streaming"))
 
 
@@ -117,7 +128,7 @@ def spheres(data):
         return [[text(r["faces"]), text(r["strategy"]), *(c(r) for c in columns)] for r in rows]
     share = lambda value: f"{value:.1%}"  # noqa: E731
     mean = lambda key, digits=0: lambda r: f"{r[key]:.{digits}f}"  # noqa: E731
-    fps = lambda key: lambda r: rate(r[key]["frames_per_second"])  # noqa: E731
+    fps = lambda key: lambda r: rate(r[key]["frames_per_second"], r[key].get("spread", 1))  # noqa: E731
     stage = lambda key, name: lambda r: share(r[key]["stages"][name])  # noqa: E731
     shade = lambda key: lambda r: number(float(r["picture"][key]))  # noqa: E731
     first, threads = ["faces", "strategy"], data["threads"]
@@ -126,9 +137,8 @@ def spheres(data):
         details("Frames per second", table(
             first + [f"{name}, {how}" for _, name in ENGINES for how in ("1 thread", f"{threads} threads", "1 thread, drawn")],
             lines(*(fps(key + end) for key, _ in ENGINES for end in ("", "_all_threads", "_drawn"))),
-            f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels. One thread: processor time, "
-            f"the least of three repetitions; {threads} threads: time on the wall, of use on a quiet machine only (load "
-            f"{number(float(data.get('load', 0)))})."))
+            f"Drawn: with OpenGL by {text(data['renderer'])}, {data['viewport'][0]} by {data['viewport'][1]} pixels. One thread: processor time; "
+            f"{threads} threads: time on the wall (load {number(float(data.get('load', 0)))}). {TIMED}"))
         + details("What a frame holds", table(
             first + ["triangles", "strips", "fans", "pairs", "no partner (singletons)", "culled", "limit points"],
             lines(mean("triangles"), mean("strips"), mean("fans"), mean("pairs"), mean("singletons", 1),
@@ -155,7 +165,7 @@ def matched(data):
         if not it:
             return "not reached"
         ratio = "" if family == "uniform" else f" ({uniform['triangles'] / it['triangles']:.2f})"
-        return f"{it['triangles']:.0f}{ratio}<br>{rate(it['frames_per_second'])}"
+        return f"{it['triangles']:.0f}{ratio}<br>{rate(it['frames_per_second'], it.get('spread', 1))}"
     rows = [[text(r["faces"]), text(measures[r["measure"]]), text(r["as"]), number(float(r["error"])), *(cell(r, f) for f in families)]
             for r in data["rows"]]
     intro = ("<p>Equal depth is no comparison: the strategies do not show the surface equally well. Here each adaptive strategy is run "
@@ -169,7 +179,6 @@ def matched(data):
             + details("At the error of uniform depths 2 and 4", table(header, only("uniform-2") + only("uniform-4"))))
 
 
-WALL = "Time on the wall, each case once, without a spread: of use on a quiet machine only."
 FORMS = {"draw": "draw list", "patches": "patches", "kept": "patches that stay", "sticky": "pairs stay, too"}
 
 
@@ -183,10 +192,11 @@ def frames(data):
     def line(case, runs):
         triangles = lambda run: f"{run['triangles/s'] / run['frames/s']:.0f}"  # noqa: E731
         return [text(case.replace("/", ", ")),
-                *(show(runs[form]) if form in runs else "" for form in FORMS for show in (triangles, lambda run: rate(run["frames/s"])))]
+                *(show(runs[form]) if form in runs else "" for form in FORMS
+                  for show in (triangles, lambda run: rate(run["frames/s"], run.get("spread", 1))))]
     columns = [f"{what}, {name}" for name in FORMS.values() for what in ("triangles", "frames per second")]
     return details("As a table", table(["case", *columns], [line(case, runs) for case, runs in cases.items()],
-                                       f"{WALL} More cases and forms: <code>build/release/bench/frame_bench</code>"))
+                                       f"{ONE_THREAD} More cases and forms: <code>build/release/bench/frame_bench</code>"))
 
 
 OURS = ("row-stream", "sliding-window", "naive", "reference", "write-only")
@@ -201,14 +211,14 @@ def throughput(data, scheme="Loop"):
         route, _, case = re.sub(r"/(steady|scratch)/", r"|\1/", name, count=1).partition("|")
         best = ours.setdefault(case, r["points/s"])
         cases.setdefault(case, []).append((route, r["points/s"]))
-        rows.append([text(case), text(route), f"{r['points/s'] / 1e6:.4g}", f"{best / r['points/s']:.3g}",
-                     f"{r['real_time']:.4g} {r['time_unit']}", f"{r['peak'] / 2**20:.3g} MiB" if "peak" in r else ""])
+        rows.append([text(case), text(route), rate(r["points/s"] / 1e6, r.get("spread", 1)), f"{best / r['points/s']:.3g}",
+                     f"{r.get('spread', 1):.2f}", f"{r['real_time']:.4g} {r['time_unit']}", f"{r['peak'] / 2**20:.3g} MiB" if "peak" in r else ""])
     rows.sort(key=lambda row: list(ours).index(row[0]))
     charts = "".join(bars(case, some) for case, some in cases.items() if len(some) > 1)
     option = "" if scheme == "Loop" else " --scheme catmull-clark"
     return f"<h3>{scheme}</h3>" + charts + details(f"All cases of {scheme} as a table", table(
-        ["case", "route", "million points/s", "row streaming is so many times as fast", "time", "peak memory"], rows,
-        f"{WALL} All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench{option}</code>"))
+        ["case", "route", "million points/s", "row streaming is so many times as fast", "spread", "time", "peak memory"], rows,
+        f"{ONE_THREAD} All cases, with the least ratios wanted: <code>build/release/bench/throughput_bench{option}</code>"))
 
 
 def bars(case, rates):

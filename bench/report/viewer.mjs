@@ -5,6 +5,8 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+// What the page holds, packed.
+const unpacked = (id) => new Response(new Blob([bytes(document.getElementById(id).textContent)]).stream().pipeThrough(new DecompressionStream("gzip"))).json();
 const floats = (text) => new Float32Array(bytes(text));
 
 // Dark to light, readable without colour vision (viridis).
@@ -88,24 +90,26 @@ class Stage {
 class Tessellation {
   constructor(model) {
     this.model = model;
-    this.positions = floats(model.positions);
+    const steps = new Int16Array(bytes(model.positions)), { low, step } = model.box;
+    this.positions = Float32Array.from(steps, (n, k) => low[k % 3] + step * (n + 32768));
+    this.depth = new Uint8Array(bytes(model.depth)), this.kind = new Uint8Array(bytes(model.kind));
     this.geometry = new THREE.BufferGeometry();
     this.geometry.setAttribute("position", new THREE.BufferAttribute(this.positions, 3));
-    this.geometry.setAttribute("normal", new THREE.BufferAttribute(floats(model.normals), 3));
+    this.geometry.setAttribute("normal", new THREE.BufferAttribute(new Int8Array(bytes(model.normals)), 3, true));
     this.colour = new THREE.BufferAttribute(new Float32Array(this.positions.length), 3);
     this.geometry.setAttribute("color", this.colour);
-    this.errors = { position: floats(model.position_error), normal: floats(model.normal_error) };
+    this.errors = { position: new Uint8Array(bytes(model.position_error)), normal: new Uint8Array(bytes(model.normal_error)) };
     this.object = withEdges(this.geometry);
     this.geometry.computeBoundingSphere();
   }
   paint(by) {
-    const { model, errors } = this;
-    const logarithmic = (name, worst) => (t) => ramp(1 + Math.log10(Math.max(errors[name][t], 1e-30) / Math.max(worst, 1e-20)) / 4);
+    const { model, errors, kind, depth } = this;
+    const logarithmic = (name) => (t) => ramp(errors[name][t] / 255);
     const of = {
-      depth: (t) => (model.kind[t] === 2 ? fan : depths[model.depth[t]]), kind: (t) => kinds[model.kind[t]],
-      position: logarithmic("position", model.worst_position), normal: logarithmic("normal", model.worst_normal),
+      depth: (t) => (kind[t] === 2 ? fan : depths[depth[t]]), kind: (t) => kinds[kind[t]],
+      position: logarithmic("position"), normal: logarithmic("normal"),
     }[by];
-    for (let t = 0; t < model.depth.length; ++t) {
+    for (let t = 0; t < depth.length; ++t) {
       const c = of(t);
       for (let k = 0; k < 3; ++k) this.colour.setXYZ(3 * t + k, c.r, c.g, c.b);
     }
@@ -117,12 +121,18 @@ class Tessellation {
       normal: `logarithmic; yellow: ${model.worst_normal.toPrecision(2)} degrees, violet: 10⁻⁴ of that`,
     }[by];
   }
-  // Middle and normal of the triangle that is worst by what is shown.
+  // Of the triangle that is worst by what is shown: middle, normal, and an outline that no other triangle hides.
   worst(by) {
-    const list = by === "normal" ? this.errors.normal : this.errors.position;
-    const t = list.reduce((best, e, k) => (e > list[best] ? k : best), 0), middle = new THREE.Vector3();
-    for (let k = 0; k < 3; ++k) middle.add(new THREE.Vector3().fromArray(this.positions, 9 * t + 3 * k));
-    return { middle: middle.divideScalar(3), normal: new THREE.Vector3().fromBufferAttribute(this.geometry.getAttribute("normal"), 3 * t) };
+    const t = by === "normal" ? this.model.worst_normal_at : this.model.worst_position_at;
+    const corners = [0, 1, 2].map((k) => new THREE.Vector3().fromArray(this.positions, 9 * t + 3 * k));
+    const middle = corners.reduce((sum, c) => sum.add(c), new THREE.Vector3()).divideScalar(3);
+    const ink = { color: 0xff2010, depthTest: false, transparent: true };
+    const outline = new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(corners), new THREE.LineBasicMaterial(ink));
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(this.geometry.boundingSphere.radius / 150, 16, 12), new THREE.MeshBasicMaterial(ink));
+    ball.position.copy(middle);
+    outline.renderOrder = ball.renderOrder = 1;
+    const mark = new THREE.Group().add(outline, ball);
+    return { middle, normal: new THREE.Vector3().fromBufferAttribute(this.geometry.getAttribute("normal"), 3 * t), mark };
   }
 }
 
@@ -164,22 +174,27 @@ function marked(shape, witness) {
   return { object, point, eye: point.clone().addScaledVector(normal, 0.7 * size).addScaledVector(side, 0.5 * size), size };
 }
 
-function start(element) {
-  const read = (id) => JSON.parse(document.getElementById(id).textContent);
+async function start(element) {
   const control = (name) => element.querySelector(name);
   const select = control("select[name=colour]"), surface = control("select[name=surface]"), wire = control("input[name=wire]"), legend = control("output"), back = control("button[name=back]");
-  const toTable = control("button[name=table]");
-  const stage = new Stage(control("canvas")), shapes = read("shapes");
-  const models = [read("model"), ...(document.getElementById("maps") ? read("maps") : [])], made = [];
+  const bar = control(".ramp"), toTable = control("button[name=table]");
+  const stage = new Stage(control("canvas")), shapes = await unpacked("shapes");
+  const models = [await unpacked("model"), ...(document.getElementById("maps") ? await unpacked("maps") : [])], made = [];
   const current = () => (made[surface.value] ??= new Tessellation(models[surface.value]));
-  let witness = null, from = null;
+  let witness = null, from = null, mark = null;
 
+  function unmark() {
+    mark?.removeFromParent();
+    mark = null;
+  }
   function refresh() {
+    bar.hidden = Boolean(witness) || !["position", "normal"].includes(select.value);
     if (!witness) legend.textContent = current().paint(select.value);
     stage.object.children[1].visible = wire.checked;
     stage.draw();
   }
   function overview() {
+    unmark();
     witness = null;
     back.hidden = toTable.hidden = true;
     const { center, radius } = current().geometry.boundingSphere;
@@ -202,7 +217,7 @@ function start(element) {
   select.addEventListener("change", () => (witness ? overview() : refresh()));
   surface.addEventListener("change", () => {
     if (surface.value > 0 && !["position", "normal"].includes(select.value)) select.value = "position";
-    wire.checked = models[surface.value].depth.length < 4000;  // more edges would hide the colours
+    wire.checked = current().depth.length < 4000;  // more edges would hide the colours
     overview();
   });
   wire.addEventListener("change", refresh);
@@ -213,7 +228,9 @@ function start(element) {
   });
   control("button[name=worst]").addEventListener("click", () => {
     if (witness) overview();
-    const { middle, normal } = current().worst(select.value), { radius } = current().geometry.boundingSphere;
+    unmark();
+    const { middle, normal, mark: outline } = current().worst(select.value), { radius } = current().geometry.boundingSphere;
+    stage.object.add((mark = outline));
     stage.look(middle, middle.clone().addScaledVector(normal, 0.4 * radius), 2 * radius);
     stage.draw();
   });
@@ -223,22 +240,19 @@ function start(element) {
 
 // Nothing is drawn before it can be seen or is asked for.
 const element = document.getElementById("viewer");
-let jump = null;
+let ready = null;
 function begin() {
-  try {
-    jump ??= start(element);
-  } catch (error) {
+  ready ??= start(element).catch((error) => {
     element.querySelector("output").textContent = `This browser shows no WebGL (${error.message}).`;
-  }
+  });
+  return ready;
 }
 new IntersectionObserver((entries, observer) => {
   if (!entries.some((entry) => entry.isIntersecting)) return;
   observer.disconnect();
   begin();
 }).observe(element);
-document.addEventListener("click", (event) => {
+document.addEventListener("click", async (event) => {
   const button = event.target.closest?.("button.jump");
-  if (!button) return;
-  begin();
-  jump?.(JSON.parse(button.dataset.witness), button);
+  if (button) (await begin())?.(JSON.parse(button.dataset.witness), button);
 });

@@ -48,6 +48,57 @@ std::string base64(const std::vector<Number>& numbers) {
   return text;
 }
 
+/// What the view shows of some triangles, in few bytes: corners as 16-bit steps from a corner of the box, normals as signed
+/// bytes, errors as bytes from 10^-4 of the worst (0) to it (255) by their logarithms, depths and kinds.
+class Triangles {
+ public:
+  void corner(const verify::Vector& position, const verify::Vector& normal) {
+    positions_.push_back(position);
+    for (const double x : normal)
+      normals_.push_back(static_cast<std::int8_t>(std::lround(127 * std::clamp(x, -1., 1.))));
+  }
+  /// The triangle of the last three corners.
+  ///   position   in diagonals; normal in degrees
+  void triangle(double position, double normal, int depth, int kind) {
+    position_error_.push_back(position), normal_error_.push_back(normal);
+    depth_.push_back(static_cast<std::uint8_t>(depth)), kind_.push_back(static_cast<std::uint8_t>(kind));
+  }
+  Json json() const {
+    verify::Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    for (const auto& p : positions_)
+      for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
+    const double step = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300}) / 65535;
+    std::vector<std::int16_t> steps;
+    for (const auto& p : positions_)
+      for (std::size_t c = 0; c < 3; ++c)
+        steps.push_back(static_cast<std::int16_t>(std::lround((p[c] - low[c]) / step) - 32768));
+    Json out{{"box", {{"low", low}, {"step", step}}},
+             {"positions", base64(steps)},
+             {"normals", base64(normals_)},
+             {"depth", base64(depth_)},
+             {"kind", base64(kind_)}};
+    add(out, "position", position_error_), add(out, "normal", normal_error_);
+    return out;
+  }
+
+ private:
+  static void add(Json& out, const std::string& name, const std::vector<double>& errors) {
+    const auto worst = std::max_element(errors.begin(), errors.end());
+    std::vector<std::uint8_t> bytes;
+    for (const double e : errors)
+      bytes.push_back(static_cast<std::uint8_t>(std::lround(
+          255 * std::clamp(1 + std::log10(std::max(e, 1e-30) / std::max(*worst, 1e-20)) / 4, 0., 1.))));
+    out[name + "_error"] = base64(bytes);
+    out["worst_" + name] = *worst;
+    out["worst_" + name + "_at"] = worst - errors.begin();
+  }
+
+  std::vector<verify::Vector> positions_;
+  std::vector<std::int8_t> normals_;
+  std::vector<double> position_error_, normal_error_;
+  std::vector<std::uint8_t> depth_, kind_;
+};
+
 using verify::cross, verify::dot, verify::norm, verify::Vector, verify::operator-;
 
 struct Wanted {
@@ -80,7 +131,7 @@ Json map_of(const Wanted& w) {
   const double diagonal = data::box_diagonal(session.mesh());
   const bool has_normals = session.capabilities().normals == 1;
 
-  std::vector<float> positions, normals, position_error, normal_error;
+  Triangles triangles;
   for (std::int64_t k = 0; k < t.triangle_count(); ++k) {
     double off = 0, turned = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -94,24 +145,13 @@ Json map_of(const Wanted& w) {
         const Vector got = t.normal(v);
         turned = std::max(turned, std::atan2(norm(cross(got, n)), dot(got, n)) * 180 / std::numbers::pi);
       }
-      for (std::size_t x = 0; x < 3; ++x) {
-        positions.push_back(static_cast<float>(p[x]));
-        normals.push_back(static_cast<float>(n[x]));
-      }
+      triangles.corner(p, n);
     }
-    position_error.push_back(static_cast<float>(off));
-    normal_error.push_back(static_cast<float>(turned));
+    triangles.triangle(off, turned, w.depth, 0);
   }
-  const auto count = static_cast<std::size_t>(t.triangle_count());
-  return {{"title", fmt::format("{} on {}, depth {}", session.label(), w.mesh, w.depth)},
-          {"positions", base64(positions)},
-          {"normals", base64(normals)},
-          {"position_error", base64(position_error)},
-          {"normal_error", base64(normal_error)},
-          {"worst_position", *std::max_element(position_error.begin(), position_error.end())},
-          {"worst_normal", *std::max_element(normal_error.begin(), normal_error.end())},
-          {"depth", std::vector<int>(count, w.depth)},
-          {"kind", std::vector<int>(count, 0)}};
+  Json out = triangles.json();
+  out["title"] = fmt::format("{} on {}, depth {}", session.label(), w.mesh, w.depth);
+  return out;
 }
 
 }  // namespace
@@ -137,30 +177,16 @@ Json model() {
 
   const double diagonal = data::box_diagonal(mesh);
 
-  std::vector<float> positions, normals, position_error, normal_error;
-  std::vector<int> depths, kinds;
-  float worst_position = 0, worst_normal = 0;
+  Triangles triangles;
   each_triangle_error(mesh, frame, [&](const TriangleError& error) {
     for (const std::int32_t v : error.draw->triangle(error.triangle)) {
-      const auto& vertex = frame.vertices[error.draw->first + v];
-      positions.insert(positions.end(), {vertex.position.x, vertex.position.y, vertex.position.z});
-      normals.insert(normals.end(), {vertex.normal.x, vertex.normal.y, vertex.normal.z});
+      const auto& [p, n] = frame.vertices[error.draw->first + v];
+      triangles.corner({p.x, p.y, p.z}, {n.x, n.y, n.z});
     }
-    position_error.push_back(static_cast<float>(error.position / diagonal));
-    normal_error.push_back(static_cast<float>(error.normal));
-    worst_position = std::max(worst_position, position_error.back());
-    worst_normal = std::max(worst_normal, normal_error.back());
-    depths.push_back(error.draw->depth);
-    kinds.push_back(static_cast<int>(error.draw->kind));
+    triangles.triangle(error.position / diagonal, error.normal, error.draw->depth,
+                       static_cast<int>(error.draw->kind));
   });
-  return {{"positions", base64(positions)},
-          {"normals", base64(normals)},
-          {"position_error", base64(position_error)},
-          {"normal_error", base64(normal_error)},
-          {"worst_position", worst_position},
-          {"worst_normal", worst_normal},
-          {"depth", depths},
-          {"kind", kinds}};
+  return triangles.json();
 }
 
 Json shapes(const std::vector<std::string>& names) {

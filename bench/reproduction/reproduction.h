@@ -9,7 +9,7 @@
 
 namespace limitcheck::bench {
 
-/// figure-3, figure-6, figure-7, figure-8, figure-10, figure-13, figure-14; picture-cracks and picture-error,
+/// figure-3, figure-8, figure-10, figure-13, figure-14; picture-cracks and picture-error,
 /// for the README; picture-sharp, picture-crease.
 const std::vector<std::string>& picture_names();
 
@@ -18,8 +18,8 @@ void draw_picture(const std::string& name, const std::filesystem::path& folder);
 
 /// Behind Fig. 11 and Fig. 12: for each size of bumpy sphere and each strategy what a frame holds, how many
 /// of them per second each engine makes and draws, and how they look. Times of one thread are processor time,
-/// those of all threads time on the wall; each the least of three repetitions, with the spread. quick: fewer
-/// frames.
+/// those of all threads time on the wall; each the least of three repetitions, with the spread. `culled`: mean and
+/// deviation of the share of faces that thirty spheres of that size cull. quick: fewer frames.
 nlohmann::ordered_json sphere_table(bool quick);
 
 /// `curves`: triangles, frames per second and pictures of uniform depth and of the adaptive strategies from
@@ -29,8 +29,7 @@ nlohmann::ordered_json sphere_table(bool quick);
 nlohmann::ordered_json matched_error_table(bool quick);
 
 /// A bumpy sphere tessellated by the combined strategy, triangle by triangle, with depth, kind and the errors
-/// at its middle: position in units of the diagonal, interpolated normal in degrees. Numbers of float32 as
-/// base 64.
+/// at its middle: position in units of the diagonal, interpolated normal in degrees. In few bytes, as base 64.
 nlohmann::ordered_json model();
 
 /// By name of a control mesh: its limit surface as an indexed mesh of some thousand triangles, float32 and

@@ -17,7 +17,7 @@
 
 namespace limitcheck::bench {
 
-inline constexpr int kSize = 800;
+inline constexpr int kSize = 640;
 
 /// Looks at the origin from so many degrees round it and from a little above.
 inline fast::Camera camera_at(double degrees, double distance) {

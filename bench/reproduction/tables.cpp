@@ -4,6 +4,9 @@
 #include <fmt/core.h>
 #include <tbb/info.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <vector>
@@ -17,6 +20,27 @@
 namespace limitcheck::bench {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// What the adaptive strategies cull of spheres with so many faces.
+Json culled_share(int faces) {
+  constexpr int kSpheres = 30;
+  double sum = 0, squares = 0;
+  for (std::uint64_t seed = 1; seed <= kSpheres; ++seed) {
+    const auto mesh = data::bumpy_sphere(faces, seed);
+    const fast::Adjacency adjacency(mesh);
+    const auto facing = fast::DepthHeuristics(mesh, adjacency).facing(viewer(0));
+    const double share =
+        static_cast<double>(std::count(facing.begin(), facing.end(), fast::Facing::kBack)) / faces;
+    sum += share, squares += share * share;
+  }
+  const double mean = sum / kSpheres;
+  return {{"mean", mean},
+          {"deviation", std::sqrt(std::max(0., squares - kSpheres * mean * mean) / (kSpheres - 1))}};
+}
+
+}  // namespace
 
 Json sphere_table(bool quick) {
   const int all = tbb::info::default_concurrency();
@@ -40,6 +64,7 @@ Json sphere_table(bool quick) {
     const verify::Judge judge(mesh, truth_depth(faces));
     const Frame window = sliding_window(mesh, 1), window_all = sliding_window(mesh, all);
     const Frame stream = row_stream(mesh, 1), stream_all = row_stream(mesh, all);
+    const Json culled = culled_share(faces);
     for (const auto& [name, depth] : strategies()) {
       progress.show(done++, sizes.size() * 7, fmt::format("{} faces, {}", faces, name));
       // Counts must not depend on the machine's speed; those of uniform depth are the same in every frame.
@@ -49,6 +74,7 @@ Json sphere_table(bool quick) {
                Clock::kProcessor);
       Json row{{"faces", faces}, {"strategy", name}};
       row.update(counts(counted));
+      row["culled"] = culled;
       row["sliding_window"] = timing(counted);
       row["sliding_window_all_threads"] = timing(turn(window_all, depth, frames, seconds, Clock::kWall));
       row["sliding_window_drawn"] = timing(turn(window, depth, frames, seconds, Clock::kProcessor, draw));

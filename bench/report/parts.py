@@ -143,15 +143,13 @@ def frames(shop):
 
 
 def shown_findings(results):
-    """The findings that the report lists: of every subject and check the worst few."""
-    seen = collections.Counter()
-    shown = []
-    bad = [r for r in results if r["status"] in ("finding", "crash", "timeout", "error") and r.get("witness")]
+    """({cause: the worst of its findings that names a point of the surface}, how many findings there are)."""
+    bad = [r for r in results if r["status"] in ("finding", "crash", "timeout", "error")]
+    shown = {}
     for r in sorted(bad, key=lambda r: -((r.get("worst") or 0) / (r.get("bound") or 1e-9))):
-        seen[r["subject"], r["check"]] += 1
-        if seen[r["subject"], r["check"]] <= 3:
-            shown.append(r)
-    return sorted(shown, key=lambda r: (r["subject"], r["check"])), len(bad)
+        if place_key(r):
+            shown.setdefault(r.get("cause"), r)
+    return shown, len(bad)
 
 
 def place_key(r):
@@ -201,7 +199,7 @@ def view(shop):
     audited = shop.folder / "audit.json"
     findings = []
     if audited.is_file():  # the surfaces its witnesses lie on
-        findings, _ = shown_findings(json.loads(audited.read_text(encoding="utf-8"))["results"])
+        findings = list(shown_findings(json.loads(audited.read_text(encoding="utf-8"))["results"])[0].values())
     names = sorted({r["mesh"] for r in findings})
     shop.reproduction("shapes", *(word for name in names for word in ("--mesh", name)))
     (shop.folder / "witnesses.json").write_text(json.dumps(places(shop, findings)), encoding="utf-8")

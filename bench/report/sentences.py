@@ -53,8 +53,10 @@ def figures_of(claim):
 
 def timed(row):
     kind = {"as the text says": "yes", "not as the text says": "no"}.get(row["outcome"], "open")  # or "depends"
-    series = "".join(table([text(s["unit"]), *(f"{at:g}" for at in s["at"])], [[text(s["name"]), *(number(float(v)) for v in s["values"])]])
-                     for s in row["series"])
+    together = {}  # series over the same quantity are rows of one table
+    for s in row["series"]:
+        together.setdefault((s["unit"], tuple(s["at"])), []).append([text(s["name"]), *(number(float(v)) for v in s["values"])])
+    series = "".join(table([text(unit), *(f"{x:g}" for x in at)], rows) for (unit, at), rows in together.items())
     return f"<p>This run: <b class={kind}>{text(row['outcome'])}</b>. {text(row['figures'])}.</p>{series}"
 
 

@@ -105,8 +105,9 @@ def causes(data, places):
     shown, bad = shown_findings(data["results"])
     lines = []
     for cause in data.get("causes", []):
-        rows = [r for r in shown if r.get("cause") == cause["number"] and place_key(r) in places]
-        button = f"<button class=jump data-witness='{text(json.dumps(places[place_key(rows[0])]))}'>show</button>" if rows else ""
+        row = shown.get(cause["number"])
+        place = places.get(place_key(row)) if row else None
+        button = f"<button class=jump data-witness='{text(json.dumps(place))}'>show</button>" if place else ""
         lines.append([text(cause["number"]), text(cause["severity"]), text(cause["title"]), text(", ".join(cause["subjects"])),
                       text(cause["rows"]), button, f"<code>{text(cause['command'])}</code>"])
     return table(["", "severity", "cause", "subjects", "findings", "in the view", "again with"], lines,

@@ -5,9 +5,9 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-// What the page holds, packed.
+// What the page holds, packed; positions are steps in a box.
+const points = ({ low, step, steps }) => Float32Array.from(new Int16Array(bytes(steps)), (n, k) => low[k % 3] + step * (n + 32768));
 const unpacked = (id) => new Response(new Blob([bytes(document.getElementById(id).textContent)]).stream().pipeThrough(new DecompressionStream("gzip"))).json();
-const floats = (text) => new Float32Array(bytes(text));
 
 // Dark to light, readable without colour vision (viridis).
 const stops = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"].map((c) => new THREE.Color(c));
@@ -90,8 +90,7 @@ class Stage {
 class Tessellation {
   constructor(model) {
     this.model = model;
-    const steps = new Int16Array(bytes(model.positions)), { low, step } = model.box;
-    this.positions = Float32Array.from(steps, (n, k) => low[k % 3] + step * (n + 32768));
+    this.positions = points(model.positions);
     this.depth = new Uint8Array(bytes(model.depth)), this.kind = new Uint8Array(bytes(model.kind));
     this.geometry = new THREE.BufferGeometry();
     this.geometry.setAttribute("position", new THREE.BufferAttribute(this.positions, 3));
@@ -139,8 +138,8 @@ class Tessellation {
 // The surface of a witness's mesh with its control face and point marked.
 function marked(shape, witness) {
   const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(floats(shape.positions), 3));
-  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(shape.triangles)), 1));
+  geometry.setAttribute("position", new THREE.BufferAttribute(points(shape.positions), 3));
+  geometry.setIndex(new THREE.BufferAttribute(new Uint16Array(bytes(shape.triangles)), 1));
   const apart = geometry.toNonIndexed(), face = new Int32Array(bytes(shape.face));
   geometry.computeVertexNormals();
   apart.setAttribute("normal", geometry.toNonIndexed().getAttribute("normal"));

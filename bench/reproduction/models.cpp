@@ -48,8 +48,21 @@ std::string base64(const std::vector<Number>& numbers) {
   return text;
 }
 
-/// What the view shows of some triangles, in few bytes: corners as 16-bit steps from a corner of the box, normals as signed
-/// bytes, errors as bytes from 10^-4 of the worst (0) to it (255) by their logarithms, depths and kinds.
+/// Positions as 16-bit steps from a corner of their box, in few bytes.
+Json packed(const std::vector<verify::Vector>& positions) {
+  verify::Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const auto& p : positions)
+    for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
+  const double step = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300}) / 65535;
+  std::vector<std::int16_t> steps;
+  for (const auto& p : positions)
+    for (std::size_t c = 0; c < 3; ++c)
+      steps.push_back(static_cast<std::int16_t>(std::lround((p[c] - low[c]) / step) - 32768));
+  return {{"low", low}, {"step", step}, {"steps", base64(steps)}};
+}
+
+/// What the view shows of some triangles: packed corners, normals as signed bytes, errors as bytes from 10^-4 of the worst
+/// (0) to it (255) by their logarithms, depths and kinds.
 class Triangles {
  public:
   void corner(const verify::Vector& position, const verify::Vector& normal) {
@@ -64,16 +77,7 @@ class Triangles {
     depth_.push_back(static_cast<std::uint8_t>(depth)), kind_.push_back(static_cast<std::uint8_t>(kind));
   }
   Json json() const {
-    verify::Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-    for (const auto& p : positions_)
-      for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
-    const double step = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300}) / 65535;
-    std::vector<std::int16_t> steps;
-    for (const auto& p : positions_)
-      for (std::size_t c = 0; c < 3; ++c)
-        steps.push_back(static_cast<std::int16_t>(std::lround((p[c] - low[c]) / step) - 32768));
-    Json out{{"box", {{"low", low}, {"step", step}}},
-             {"positions", base64(steps)},
+    Json out{{"positions", packed(positions_)},
              {"normals", base64(normals_)},
              {"depth", base64(depth_)},
              {"kind", base64(kind_)}};
@@ -190,7 +194,7 @@ Json model() {
 }
 
 Json shapes(const std::vector<std::string>& names) {
-  constexpr std::size_t kTriangles = 6000;  // enough to look round, few enough for a page of many
+  constexpr std::size_t kTriangles = 3000;  // enough to look round, few enough for a page of many
   Json list = Json::object();
   for (const std::string& name : names) {
     try {
@@ -204,10 +208,14 @@ Json shapes(const std::vector<std::string>& names) {
       fast::Tessellator<float> engine(mesh, options);
       fast::IndexedMesh<float> out;
       engine.frame(depth, viewer(0), out);
-      std::vector<std::uint32_t> corners;
-      for (const auto& t : out.triangles) corners.insert(corners.end(), t.begin(), t.end());
+      if (out.vertices.size() > 65535) throw data::ArgumentError("it has too many vertices for the view");
+      std::vector<verify::Vector> positions;
+      for (const auto& [p, n] : out.vertices) positions.push_back({p.x, p.y, p.z});
+      std::vector<std::uint16_t> corners;
+      for (const auto& t : out.triangles)
+        for (const std::uint32_t v : t) corners.push_back(static_cast<std::uint16_t>(v));
       list[name] = {{"depth", depth.depth},
-                    {"positions", base64(coordinates(out))},
+                    {"positions", packed(positions)},
                     {"triangles", base64(corners)},
                     {"face", base64(out.triangle_face)}};
     } catch (const std::exception& error) {
@@ -220,7 +228,7 @@ Json shapes(const std::vector<std::string>& names) {
 Json maps(std::vector<std::string> wanted) {
   // A library on triangles, and one on a mesh of quads with a crease, each at its default precision.
   if (wanted.empty())
-    wanted = {"opensubdiv-far@bumpy:200@3", "opensubdiv-far@open-crease:3@4", "row-stream@pawn@3"};
+    wanted = {"opensubdiv-far@bumpy:200@3", "opensubdiv-far@open-crease:3@3", "row-stream@pawn@3"};
   Json list = Json::array();
   for (const std::string& text : wanted) list.push_back(map_of(parse(text)));
   return list;

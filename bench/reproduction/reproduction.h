@@ -32,8 +32,8 @@ nlohmann::ordered_json matched_error_table(bool quick);
 /// at its middle: position in units of the diagonal, interpolated normal in degrees. In few bytes, as base 64.
 nlohmann::ordered_json model();
 
-/// By name of a control mesh: its limit surface as an indexed mesh of some thousand triangles, float32 and
-/// 32-bit integers as base 64, with the control face of each triangle; or `error`, why it cannot be shown.
+/// By name of a control mesh: its limit surface as an indexed mesh of some thousand triangles, packed as
+/// base 64, with the control face of each triangle; or `error`, why it cannot be shown.
 nlohmann::ordered_json shapes(const std::vector<std::string>& names);
 
 /// What subjects deliver: an array of title and what model() has, errors at the points of each triangle. Each

@@ -31,13 +31,6 @@ inline fast::DrawList<float> frame_seen(const data::ControlMesh& mesh, const fas
   return frame;
 }
 
-/// The coordinates of all vertices, three by three.
-inline std::vector<float> coordinates(const fast::IndexedMesh<float>& mesh) {
-  std::vector<float> list;
-  for (const auto& v : mesh.vertices) list.insert(list.end(), {v.position.x, v.position.y, v.position.z});
-  return list;
-}
-
 struct NamedStrategy {
   std::string name;
   fast::DepthOptions options;

@@ -48,7 +48,7 @@ FileFormat io::format_of(const std::filesystem::path& file) {
   if (extension == ".stl") return FileFormat::kStl;
   if (extension == ".usda") return FileFormat::kUsda;
   throw InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,
-                   "the name does not end in .obj, .off, .ply, .stl or .usda");
+                   "the name does not end in .obj, .off, .ply, .stl, .usda, .gltf or .glb");
 }
 
 std::string io::whole_content(const std::filesystem::path& file) {

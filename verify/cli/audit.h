@@ -21,6 +21,7 @@
 #include "verify/files/audit_files.h"
 #include "verify/report/columns.h"
 #include "verify/report/coverage.h"
+#include "verify/report/forms.h"
 
 namespace limitcheck::cli {
 
@@ -166,6 +167,9 @@ struct Audited {
 /// std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const Audited& audited);
 /// Writes the report as a page, with the tessellation of each cause's example made anew.
+using ShapeOf = std::function<std::optional<verify::ErrorShape>(const verify::Result& row)>;
+void write_html(const std::string& file, const verify::Report& report, const std::string& level,
+                const ShapeOf& shape_of);
 void write_html(const std::string& file, const Audited& audited, const std::string& level);
 
 /// `limitcheck audit --control cage.obj --tessellation out.ply`: the part of the audit that needs no program.

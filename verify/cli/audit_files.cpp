@@ -10,6 +10,7 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -147,6 +148,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
                            static_cast<std::int64_t>(control.faces.size()), opened.chosen.scheme, cut});
   report.subjects = files_of(files);
   std::string about = scheme_line({opened.chosen}, a.mesh), per_vertex;
+  std::map<std::string, verify::VertexErrors> errors;  // of each file
   Progress progress;
   const verify::InterruptGuard guard;
   int signal = 0;
@@ -170,6 +172,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
     }
     for (const std::string& note : audit.notes) about += "\n" + note;
     per_vertex = std::move(audit.per_vertex);
+    if (!a.output.html.empty()) errors[file] = std::move(audit.errors);
     if (audit.gave_up) signal = verify::interrupted();  // the other files say the same of each row
   }
   progress.clear();
@@ -191,7 +194,10 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
     meshes[0].asked_scheme = opened.chosen.scheme;
     const std::vector<verify::AuditSubject> none;
     const Audited audited{none, meshes, report, a.threads};
-    if (!a.output.html.empty()) write_html(a.output.html, audited, a.output.level);
+    if (!a.output.html.empty())
+      write_html(a.output.html, report, a.output.level, [&](const verify::Result& row) {
+        return verify::error_shape(errors[row.subject], control, row);
+      });
     write_witnesses(a.output, audited);
   } catch (const std::exception&) {
     not_written = std::current_exception();

@@ -97,6 +97,26 @@ TEST_F(AuditFilesCommand, ExitsWithTwoOnBadUsageAndBadInput) {
 }
 
 // Every option that --help names: with finished files it has an effect, which is shown here, or it is refused.
+// The page of a file shows its triangles, red where they are off: of twenty vertices moved, and of no other.
+TEST_F(AuditFilesCommand, ThePageShowsWhereTheFileIsWrong) {
+  ASSERT_EQ(run("generate bumpy:20 -o cage.obj").code, 0);
+  ASSERT_EQ(run("tessellate cage.obj --depth 2 -o right.obj").code, 0);
+  ASSERT_EQ(shell("awk '/^v /{ if (++n > 50 && n <= 70) $2 += 0.001 } { print }' right.obj > moved.obj").code,
+            0);
+  ASSERT_EQ(run("audit --control cage.obj --tessellation moved.obj --html page.html").code, 1);
+  EXPECT_EQ(python("import base64, json, re\n"
+                   "page = open('page.html').read()\n"
+                   "data = json.loads(re.search('id=\"data\">(.*?)</script>', page, re.S).group(1))\n"
+                   "shape = next(c['shape'] for c in data['causes'] if c['shape'])\n"
+                   "values = base64.b64decode(shape['values'])\n"
+                   "red = sum(v > 0 for v in values)\n"
+                   "assert len(values) == 162 and red == 20, (len(values), red)\n"
+                   "assert len(base64.b64decode(shape['control'])) == 30 * 2 * 3 * 4\n"
+                   "assert 'the file has nothing of the kind' in data['legend']\n"),
+            0)
+      << read(".stderr");
+}
+
 TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
   ASSERT_EQ(run("generate bumpy:20 -o cage.obj").code, 0);
   ASSERT_EQ(run("tessellate cage.obj --depth 1 -o out.obj").code, 0);

@@ -218,23 +218,26 @@ void write_witnesses(const OutputArguments& a, const Audited& audited) {
     say(stderr, "{} witnesses in {}\n", findings.size(), folder);
 }
 
-void write_html(const std::string& file, const Audited& audited, const std::string& level) {
-  const auto& [subjects, meshes, report, threads] = audited;
+void write_html(const std::string& file, const verify::Report& report, const std::string& level,
+                const ShapeOf& shape_of) {
   const std::vector<verify::Cause> causes = verify::causes(report);
   std::vector<std::optional<verify::ErrorShape>> shapes;
+  for (const verify::Cause& c : causes) shapes.push_back(shape_of(report.results[c.example]));
+  verify::write_text(file, verify::to_html(report, causes, shapes, level));
+}
+
+void write_html(const std::string& file, const Audited& audited, const std::string& level) {
+  const auto& [subjects, meshes, report, threads] = audited;
   SubjectOutput output;  // the report has it already
-  for (const verify::Cause& c : causes) {
-    const verify::Result& row = report.results[c.example];
+  write_html(file, report, level, [&](const verify::Result& row) -> std::optional<verify::ErrorShape> {
     const verify::AuditMesh* mesh = case_of(row, meshes);
     const auto at = std::find(report.subjects.begin(), report.subjects.end(), row.subject);
     const auto number = static_cast<std::size_t>(at - report.subjects.begin());
     // After an interrupt no subject is asked again: it may be the one that does not answer.
-    shapes.push_back(mesh == nullptr || number >= subjects.size() || !report.incomplete.empty()
-                         ? std::nullopt
-                         : verify::error_shape(subjects[number], *mesh, row, threads));
-  }
+    if (mesh == nullptr || number >= subjects.size() || !report.incomplete.empty()) return std::nullopt;
+    return verify::error_shape(subjects[number], *mesh, row, threads);
+  });
   (void)output.take();
-  verify::write_text(file, verify::to_html(report, causes, shapes, level));
 }
 
 bool settle(const ReportOptions& a, verify::Report& report) {

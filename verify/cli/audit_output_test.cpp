@@ -20,10 +20,6 @@ using nlohmann::json;
 
 class AuditOutput : public CommandTest {
  protected:
-  int python(const std::string& program) const {
-    write("check.py", program);
-    return command("/usr/bin/python3 check.py").code;
-  }
 };
 
 TEST_F(AuditOutput, IsValidByThePublishedSchema) {
@@ -160,6 +156,16 @@ TEST_F(AuditCauses, ThePageHasEverythingInside) {
   const std::string page = read("out/page.html");
   EXPECT_TRUE(says(page, "\"positions\":\"")) << "the mesh";
   EXPECT_FALSE(says(page, "%DATA%"));
+  // Who runs no script reads overview and causes all the same; who does sees the control mesh and the bound.
+  const std::string plain =
+      page.substr(page.find("<noscript>"), page.find("</noscript>") - page.find("<noscript>"));
+  for (const char* words :
+       {"<th>subject</th>", "<td>opensubdiv-bfr</td>", "<li>high, opensubdiv-bfr: ", "<code>limitcheck "})
+    EXPECT_TRUE(says(plain, words)) << words << plain;
+  EXPECT_FALSE(says(plain, "%PLAIN%"));
+  EXPECT_FALSE(says(page, "\"control\":\"\"")) << "the control mesh's edges";
+  EXPECT_TRUE(says(page, "\"of\":\"positions\",\"bound\":")) << "the bound of the histogram";
+  EXPECT_FALSE(says(page, "\"bound\":null"));
   EXPECT_FALSE(says(page, "src=\"http")) << "opens without a network";
   EXPECT_LT(page.size(), 2000000U);
   // Its policy lets in its own style and script, by their digests, and nothing from elsewhere.

@@ -126,17 +126,6 @@ TEST_F(Help, ColourIsAsItIsAskedFor) {
   EXPECT_EQ(too_wide(std::regex_replace(shown, std::regex("\r"), ""), 80), "");
 }
 
-// What users do from the beginning to the end (verify/cli/stories).
-class Story : public Help, public testing::WithParamInterface<const char*> {};
-
-TEST_P(Story, Ends) {
-  const std::string script = LIMITCHECK_SOURCE_DIR "/verify/cli/stories/" + std::string(GetParam()) + ".sh";
-  const Outcome o = shell("export -f limitcheck\nbash '" + script + "'");
-  EXPECT_EQ(o.code, 0) << o.out << o.err;
-}
-
-INSTANTIATE_TEST_SUITE_P(OfAUser, Story, testing::Values("files", "ci", "artist"));
-
 // What looked at nothing says why.
 TEST_F(Help, NothingLookedAtHasThreeReasons) {
   const std::string one = run("audit cgal octahedron --depth 1 --level quick").out;

@@ -275,7 +275,10 @@ int hunt(HuntArguments a) {
   if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report));
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report, before));
   if (report.incomplete.empty()) files.remove();
-  say("{}", a.json == "-" ? verify::to_json(report) : verify::to_text(report, before));
+  if (a.json == "-")
+    say("{}", verify::to_json(report));
+  else
+    say_lines(verify::to_text(report, before));
   if (signal != 0) return kSignalled + signal;
   if (!report.incomplete.empty() || report.judged == 0) return kBadInput;
   return verify::new_findings(report, before).empty() ? kHeld : kFindings;

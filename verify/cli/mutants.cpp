@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <map>
@@ -10,8 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "verify/cli/commands.h"
+#include "verify/cli/screen.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/report/columns.h"
 #include "verify/report/json.h"
 
 namespace limitcheck::cli {
@@ -53,19 +56,26 @@ std::string without_provenance(const Kill& k) {
 
 std::string to_table(const KillTable& table) {
   const bool bare = std::ranges::any_of(table.kills, [](const Kill& k) { return k.bare_cases >= 0; });
-  const auto column = [bare](const std::string& text) { return bare ? fmt::format("{:<26} ", text) : ""; };
-  std::string out = fmt::format("{:<26} {:<5} {:<26} {:<8} {}{:<28} {}\n", "mutant", "claim", "meant for",
-                                "verdict", column("without provenance"), "on", "also killed by");
+  const verify::Screen screen{false, screen_width(STDOUT_FILENO)};
+  std::vector<verify::Column> columns{
+      {"mutant", 26}, {.title = "claim", .least = 5, .leaves = 2}, {"meant for", 26}, {"verdict", 8}};
+  if (bare) columns.push_back({"without provenance", 26});
+  columns.push_back({.title = "on", .least = 28, .leaves = 3});
+  columns.push_back({.title = "also killed by", .least = 1, .leaves = 1});
+  std::vector<verify::TableRow> rows;
   for (const Kill& k : table.kills) {
     auto others = k.killed_by;
     others.erase(k.mutant->check);
-    out += fmt::format("{:<26} {:<5} {:<26} {:<8} {}{:<28} {}\n", k.mutant->name,
-                       k.mutant->claim.empty() ? "-" : k.mutant->claim, k.mutant->check,
-                       k.by_its_check()      ? "killed"
-                       : k.killed_by.empty() ? "SURVIVED"
-                                             : "ASTRAY",
-                       column(without_provenance(k)), k.on.empty() ? "-" : k.on, fmt::join(others, ", "));
+    const char* verdict = k.by_its_check() ? "killed" : k.killed_by.empty() ? "SURVIVED" : "ASTRAY";
+    rows.push_back({{{k.mutant->name},
+                     {k.mutant->claim.empty() ? "-" : k.mutant->claim},
+                     {k.mutant->check},
+                     {verdict}}});
+    if (bare) rows.back().cells.push_back({without_provenance(k)});
+    rows.back().cells.push_back({k.on.empty() ? "-" : k.on});
+    rows.back().cells.push_back({fmt::format("{}", fmt::join(others, ", "))});
   }
+  std::string out = verify::table(columns, rows, screen, 0);
   const auto killed =
       std::count_if(table.kills.begin(), table.kills.end(), [](const Kill& k) { return k.by_its_check(); });
   out += fmt::format("\n{} mutants, {} killed by the check meant for them; {} checks kill nothing{}\n",
@@ -82,7 +92,7 @@ std::string to_table(const KillTable& table) {
         killed_bare, static_cast<int>(table.kills.size()) - killed_bare - unseen - unasked, unseen, unasked);
   }
   for (const std::string& red : table.red_on_correct) out += fmt::format("RED ON A RIGHT SUBJECT: {}\n", red);
-  return out;
+  return verify::wrapped(out, screen.width);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "verify/files/checks/diagnosis.h"
 #include "verify/files/checks/hausdorff.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -27,7 +28,8 @@ std::string what_it_is(const FileTessellation& t) {
   return text;
 }
 
-std::string per_vertex(const FileEvidence& e) {
+/// The largest angle of the normals of each vertex; -1: it has none, or the surface.
+std::vector<double> angles_of(const FileEvidence& e) {
   const FileTessellation& t = e.tessellation;
   std::vector<double> angle(t.positions.size(), -1);
   for (const auto& n : t.normals) {
@@ -39,6 +41,11 @@ std::string per_vertex(const FileEvidence& e) {
         if (side.has_normal) a = std::min(a, angle_degrees(n.direction, side.normal));
     if (!(a <= angle[n.vertex])) angle[n.vertex] = a;
   }
+  return angle;
+}
+
+std::string per_vertex(const FileEvidence& e, const std::vector<double>& angle) {
+  const FileTessellation& t = e.tessellation;
   const bool loop = e.scheme() == data::Scheme::kLoop;
   std::string out =
       loop ? "vertex,distance,normal_angle,face,l1,l2\n" : "vertex,distance,normal_angle,face,corner,u,v\n";
@@ -146,7 +153,14 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
     say(distance, unseen);
     audit.notes.push_back(unseen);
   }
-  audit.per_vertex = per_vertex(e);
+  const std::vector<double> angle = angles_of(e);
+  audit.per_vertex = per_vertex(e, angle);
+  audit.errors = {tessellation.positions, tessellation.triangles,     {}, angle,
+                  options.tolerance,      normal_bound(LC_FLOAT32, 5)};
+  for (std::size_t v = 0; v < tessellation.positions.size(); ++v) {
+    const std::int32_t point = e.merged.point_of[v];
+    audit.errors.distance.push_back(point < 0 ? -1 : e.foot[point].distance / e.surface.diagonal());
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "verify/files/checks/file_evidence.h"
 #include "verify/files/checks/fit.h"
 #include "verify/row/result.h"
+#include "verify/row/vertex_errors.h"
 
 namespace limitcheck::verify {
 
@@ -30,6 +31,7 @@ struct FilesAudit {
   std::vector<Result> results;
   std::vector<std::string> notes;  // sentences for people: what the file is, what it looks like
   bool gave_up = false;            // an interrupt (interrupt.h) left rows out: they are not run
+  VertexErrors errors;             // nothing if it gave up
   std::string per_vertex;  // CSV: vertex, distance in diagonals, normal angle in degrees, face, l1, l2; of
                            // Catmull-Clark's scheme face, corner, u, v
 };

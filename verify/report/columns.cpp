@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 
 namespace limitcheck::verify {
 namespace {
@@ -105,13 +107,28 @@ std::size_t total(const std::vector<Column>& columns, const std::vector<std::siz
 
 }  // namespace
 
+namespace {
+
+/// "  limitcheck audit ..." and not "limitcheck 0.2.0: depth 4 on ...".
+bool is_command(const std::string& line) {
+  constexpr std::string_view kProgram = "limitcheck ";
+  const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+  return line.compare(first, kProgram.size(), kProgram) == 0 && first + kProgram.size() < line.size() &&
+         std::islower(static_cast<unsigned char>(line[first + kProgram.size()])) != 0;
+}
+
+}  // namespace
+
 std::string wrapped(const std::string& text, std::size_t width, std::optional<std::size_t> hang) {
   if (width == 0) return text;
   std::string out;
   for (std::size_t from = 0; from < text.size();) {
     const std::size_t end = std::min(text.find('\n', from), text.size());
     const std::string line = text.substr(from, end - from);
-    add_wrapped(out, line, width, hang.value_or(hang_of(line, width)));
+    if (is_command(line))
+      out += line;
+    else
+      add_wrapped(out, line, width, hang.value_or(hang_of(line, width)));
     if (end < text.size()) out += '\n';
     from = end + 1;
   }

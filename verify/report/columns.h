@@ -16,7 +16,7 @@ struct Screen {
 
 /// Lines that are wider than the screen are broken at blanks, or else behind commas. What is carried over begins where
 /// the line does, or under its second column, if there are two blanks or more before one; or behind `hang` blanks.
-/// Escape sequences have no width. A word that is wider than the screen stays whole.
+/// Escape sequences have no width. A word that is wider than the screen stays whole, and a line that is a command.
 std::string wrapped(const std::string& text, std::size_t width, std::optional<std::size_t> hang = {});
 
 struct TableCell {

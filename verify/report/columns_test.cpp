@@ -19,6 +19,9 @@ TEST(Wrapped, LinesAreBrokenAtBlanksUnderTheirSecondColumn) {
   EXPECT_EQ(wrapped("a,b,c,d,e", 5), "a,b,\nc,d,e");
   EXPECT_EQ(wrapped("\033[31mred\033[0m or so", 6), "\033[31mred\033[0m or\nso") << "escapes have no width";
   EXPECT_EQ(wrapped("1–3 4–5", 3), "1–3\n4–5") << "nor have the later bytes of a character";
+  EXPECT_EQ(wrapped("  limitcheck audit naive\n", 9), "  limitcheck audit naive\n")
+      << "a command is copied whole";
+  EXPECT_EQ(wrapped("limitcheck 0.2.0: depth\n", 18), "limitcheck 0.2.0:\ndepth\n");
   EXPECT_EQ(wrapped("\n\n", 5), "\n\n");
 }
 

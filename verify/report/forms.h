@@ -14,6 +14,7 @@
 #include "verify/evidence/audit_case.h"
 #include "verify/report/columns.h"
 #include "verify/row/result.h"
+#include "verify/row/vertex_errors.h"
 
 namespace limitcheck::verify {
 
@@ -55,7 +56,7 @@ std::string changes_line(const Report& report);
 /// "38 held, 2 findings, ...": the last line of a report, with what was never judged or is incomplete.
 std::string summary(const Report& report);
 /// What the words of the tables mean.
-std::string legend(bool plan);
+std::string legend(const Report& report);
 
 /// Header, subjects x groups of checks (of one subject: its checks), root causes, summary. At most
 /// kScreen lines as long as there are no more than 25 causes; the commands are left out where they would make
@@ -103,9 +104,10 @@ std::string xml_text(const std::string& text);
 
 /// A tessellation, or the part of it round a witness, with the error of each vertex.
 struct ErrorShape {
-  std::vector<float> positions;          // three for each vertex
-  std::vector<std::uint8_t> values;      // of each vertex: 0 within the bound, 1 .. beyond it, one for each
-                                         // power of ten; 255 not finite
+  std::vector<float> control;        // both ends of each edge of the control mesh; nothing if it has too many
+  std::vector<float> positions;      // three for each vertex
+  std::vector<std::uint8_t> values;  // of each vertex: 0 within the bound, 1 .. beyond it, one for each
+                                     // power of ten; 255 not finite
   std::vector<std::uint32_t> triangles;  // three vertices each
   std::array<float, 3> witness{};
   std::string note;  // what the values are of
@@ -116,6 +118,9 @@ struct ErrorShape {
 inline constexpr std::size_t kMostTriangles = 3000;
 std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMesh& mesh, const Result& row,
                                       int threads);
+/// The same of a finished file.
+std::optional<ErrorShape> error_shape(const VertexErrors& file, const data::ControlMesh& control,
+                                      const Result& row);
 
 /// The page: overview, causes with their shapes (one for each cause, or none), histogram of errors.
 std::string to_html(const Report& report, const std::vector<Cause>& causes,

@@ -161,14 +161,19 @@ std::string summary(const Report& report) {
   return out;
 }
 
-std::string legend(bool plan) {
+std::string legend(const Report& report) {
+  if (report.depths == "file")
+    return "held: looked at, nothing wrong; 1/1: wrong; unsupported: the file has nothing of the kind; not "
+           "asked: an option "
+           "leaves it out; not run: something before it failed.\n"
+           "diagonal: of the control mesh's bounding box.\n";
   return fmt::format(
       "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; unsupported: the subject does not do it; "
       "not asked: --level or --checks leaves it out, the mesh has more than 200 faces, or no sharp edges to "
       "ask for; not run: something before it failed.\n"
       "irregular: at a vertex of another valence than 6 (Loop) or 4 (Catmull-Clark), or no quad; diagonal: "
       "of the mesh's bounding box.\n",
-      plan ? "cases (a mesh at its depths)" : "meshes");
+      report.depths == "plan" ? "cases (a mesh at its depths)" : "meshes");
 }
 
 std::string changes_line(const Report& report) {
@@ -195,7 +200,7 @@ std::string to_overview(const Report& report, const std::vector<Cause>& causes, 
   if (report.subjects.size() == 1)
     top += check_lines(report, report.subjects.front(), screen);
   else
-    top += matrix(report, screen) + legend(report.depths == "plan");
+    top += matrix(report, screen) + legend(report);
   top = wrapped(top + waiver_lines(report), screen.width);
   const std::string bottom = wrapped("\n" + changes_line(report) + summary(report) + full, screen.width);
 

@@ -26,6 +26,7 @@ Result row(const FileEvidence& e, const char* check, const std::vector<double>& 
   Result r = e.result(check, "diagonal", e.tolerance);
   const Statistics s = summarise(error, e.tolerance);
   take(r, s);
+  r.decades = decades(error);
   if (s.worst_at >= 0) {
     const auto vertex = static_cast<std::int32_t>(s.worst_at);
     r.witness = e.at_vertex(vertex);
@@ -306,6 +307,7 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   }
   const Statistics s = summarise(angle, *r.bound);
   take(r, s);
+  r.decades = decades(angle);
   if (s.worst_at >= 0) {
     r.witness = e.at_vertex(normals[s.worst_at].vertex);
     r.witness->expected = list(expected[s.worst_at]);

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// What the page shows in three dimensions: the triangles round a witness, coloured by their errors, where they lie on
+// the control mesh.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "verify/evidence/evidence.h"
+#include "verify/report/forms.h"
+#include "verify/row/bounds.h"
+#include "verify/subject/weights_option.h"
+
+namespace limitcheck::verify {
+
+namespace {
+
+// 0 within the bound, else how many powers of ten beyond it, from 1 on; 255 not finite.
+std::uint8_t value_of(double error, double bound) {
+  if (!std::isfinite(error)) return 255;
+  if (error <= bound) return 0;
+  return static_cast<std::uint8_t>(std::clamp(1 + std::log10(error / bound), 1.0, 20.0));
+}
+
+void append(std::vector<float>& to, const Vector& p) {
+  for (const double x : p) to.push_back(static_cast<float>(x));
+}
+
+/// Both ends of each edge of the control mesh; nothing where so many would hide what they are to show.
+std::vector<float> edges_of(const data::ControlMesh& mesh) {
+  constexpr std::size_t kMost = 8000;
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::size_t f = 0; f < mesh.faces.size() && edges.size() <= kMost; ++f) {
+    const auto face = mesh.faces[f];
+    for (std::size_t k = 0; k < face.size(); ++k)
+      edges.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
+  }
+  std::vector<float> ends;
+  if (edges.size() > kMost) return ends;
+  for (const auto& [a, b] : edges) append(ends, mesh.positions[a]), append(ends, mesh.positions[b]);
+  return ends;
+}
+
+/// A tessellation by its numbers.
+struct Shown {
+  std::int64_t triangles;
+  std::function<bool(std::int64_t)> is_sound;  // may be looked at
+  std::function<std::array<std::uint32_t, 3>(std::int64_t)> corners;
+  std::function<Vector(std::uint32_t)> position;
+};
+
+/// The triangles nearest to a point, at most kMostTriangles.
+std::vector<std::int64_t> nearest(const Shown& t, const Vector& middle) {
+  std::vector<std::pair<double, std::int64_t>> order;
+  for (std::int64_t k = 0; k < t.triangles; ++k) {
+    if (!t.is_sound(k)) continue;
+    const Vector p = t.position(t.corners(k)[0]);
+    if (is_finite(p)) order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), kMostTriangles));
+  std::vector<std::int64_t> list;
+  for (const auto& [distance, k] : order) list.push_back(k);
+  return list;
+}
+
+ErrorShape shape_of(const Shown& t, const std::vector<std::int64_t>& triangles, const Vector& middle,
+                    const data::ControlMesh& control,
+                    const std::function<std::uint8_t(std::uint32_t)>& value) {
+  ErrorShape shape;
+  shape.control = edges_of(control);
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (const std::int64_t k : triangles)
+    for (const std::uint32_t v : t.corners(k)) {
+      const auto [at, is_new] = number.emplace(v, static_cast<std::uint32_t>(shape.values.size()));
+      shape.triangles.push_back(at->second);
+      if (!is_new) continue;
+      append(shape.positions, t.position(v));
+      shape.values.push_back(value(v));
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
+  return shape;
+}
+
+std::string note_of(bool normals, double bound, std::size_t triangles) {
+  std::string note =
+      fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions", bound,
+                  normals ? " degrees" : " diagonals");
+  if (triangles == kMostTriangles) note += fmt::format("; the {} triangles at the witness", kMostTriangles);
+  return note;
+}
+
+}  // namespace
+
+std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMesh& mesh, const Result& row,
+                                      int threads) try {
+  if (!row.witness || row.witness->face < 0) return std::nullopt;
+  const std::vector<std::int32_t> asked = asked_depths(mesh, row.depth);
+  Session session(*subject.subject, mesh.mesh, subject.options, Session::Input::kValid, mesh.scheme());
+  warm_up(session, mesh, row.depth, threads);
+  const Tessellation t = session.tessellate(asked, threads);
+  const lc_capabilities& c = session.capabilities();
+  session.close();
+  if (t.vertex_count() == 0) return std::nullopt;
+  ReferenceSurface truth(session.mesh(), mesh.scheme(), row.depth, c.points, family(c.weights));
+  const Evidence e = gather(subject, mesh, session, session.mesh(), asked, t, truth);
+
+  // The triangles nearest to the witness; without a vertex of its own, to the first of its face.
+  std::int64_t centre = row.witness->vertex;
+  for (std::int64_t v = 0; centre < 0 && v < t.vertex_count(); ++v)
+    if (t.provenance_ok(v) && t.place(v).face == row.witness->face) centre = v;
+  if (centre < 0 || centre >= t.vertex_count()) return std::nullopt;
+  const Vector middle = t.position(centre);
+  const Shown shown{t.triangle_count(), [&](std::int64_t k) { return t.triangle_ok(k); },
+                    [&](std::int64_t k) { return t.triangles()[k]; },
+                    [&](std::uint32_t v) { return t.position(v); }};
+  const std::vector<std::int64_t> order = nearest(shown, middle);
+  std::vector<Lattice::Id> wanted;
+  for (const std::int64_t k : order)
+    for (const std::uint32_t v : t.triangles()[k]) wanted.push_back(e.point[v]);
+  truth.prepare(wanted);
+  const bool normals = row.unit == "degrees" || row.check == "finite";
+  const double bound = normals ? normal_bound(c.precision, truth.steps()) : e.position_bound();
+  const auto error = [&](std::uint32_t v) {
+    const Lattice::Id point = e.point[v];
+    if (point == Lattice::kNone) return 0.0;
+    if (!normals) return norm(t.position(v) - truth.position(point)) / e.diagonal;
+    if (!t.has_normals()) return 0.0;
+    if (!is_finite(t.normal(v))) return std::numeric_limits<double>::quiet_NaN();
+    const Sides::Id side = truth.sides().of(point, t.place(v).face);
+    return truth.has_normal(side) ? angle_degrees(t.normal(v), truth.normal(side)) : 0.0;
+  };
+  ErrorShape shape = shape_of(shown, order, middle, mesh.mesh, [&](std::uint32_t v) {
+    return value_of(error(v), normals ? bound : e.position_bound_at(e.point[v]));
+  });
+  shape.note = note_of(normals, bound, order.size());
+  return shape;
+} catch (const std::exception&) {
+  return std::nullopt;  // the report has a row that says so
+}
+
+std::optional<ErrorShape> error_shape(const VertexErrors& file, const data::ControlMesh& control,
+                                      const Result& row) {
+  if (!row.witness || row.witness->vertex < 0 || file.positions.empty()) return std::nullopt;
+  const Vector middle = file.positions[static_cast<std::size_t>(row.witness->vertex)];
+  const Shown shown{static_cast<std::int64_t>(file.triangles.size()), [](std::int64_t) { return true; },
+                    [&](std::int64_t k) {
+                      const auto& [a, b, c] = file.triangles[static_cast<std::size_t>(k)];
+                      return std::array{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                        static_cast<std::uint32_t>(c)};
+                    },
+                    [&](std::uint32_t v) { return file.positions[v]; }};
+  const bool normals = row.unit == "degrees";
+  const double bound = normals ? file.angle_bound : file.distance_bound;
+  const std::vector<std::int64_t> order = nearest(shown, middle);
+  ErrorShape shape = shape_of(shown, order, middle, control, [&](std::uint32_t v) {
+    return is_finite(file.positions[v]) ? value_of(normals ? file.angle[v] : file.distance[v], bound)
+                                        : std::uint8_t{255};
+  });
+  shape.note = note_of(normals, bound, order.size());
+  return shape;
+}
+
+}  // namespace limitcheck::verify

@@ -227,15 +227,16 @@ void write_html(const std::string& file, const verify::Report& report, const std
 }
 
 void write_html(const std::string& file, const Audited& audited, const std::string& level) {
-  const auto& [subjects, meshes, report, threads] = audited;
+  const verify::Report& report = audited.report;
   SubjectOutput output;  // the report has it already
   write_html(file, report, level, [&](const verify::Result& row) -> std::optional<verify::ErrorShape> {
-    const verify::AuditMesh* mesh = case_of(row, meshes);
+    const verify::AuditMesh* mesh = case_of(row, audited.meshes);
     const auto at = std::find(report.subjects.begin(), report.subjects.end(), row.subject);
     const auto number = static_cast<std::size_t>(at - report.subjects.begin());
     // After an interrupt no subject is asked again: it may be the one that does not answer.
-    if (mesh == nullptr || number >= subjects.size() || !report.incomplete.empty()) return std::nullopt;
-    return verify::error_shape(subjects[number], *mesh, row, threads);
+    if (mesh == nullptr || number >= audited.subjects.size() || !report.incomplete.empty())
+      return std::nullopt;
+    return verify::error_shape(audited.subjects[number], *mesh, row, audited.threads);
   });
   (void)output.take();
 }

@@ -40,11 +40,12 @@ MORE_PICTURES = {
                        "lower edge: without repair one sees through cracks beside the crease; with the paper's fans there are none."),
 }
 CHARTS = {
-    "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres, on a logarithmic scale, falling with the number of control faces: of "
-                               "the paper's engine and of ours. The adaptive strategies (60 pixels, 30 degrees) lie among the uniform depths "
+    "figure-11": ("Figure 11", "Frames per second on turning bumpy spheres of 200 to 4000 control faces, on a logarithmic scale: of the paper's "
+                               "engine and of ours. The adaptive strategies (60 pixels, 30 degrees) lie among the uniform depths "
                                "1 to 5; at which error, this diagram does not say (T4). All threads and frames that are drawn: in the table."),
-    "figure-12": ("Figure 12", "Triangles per frame, rising with the number of control faces; and the share of control faces that face away and are "
-                               "culled, falling: means of thirty spheres of each size, the band is one standard deviation."),
+    "figure-12": ("Figure 12", "Left: triangles per frame of one sphere of each size, rising with the number of control faces. Right: the share of "
+                               "control faces that face away and are culled, falling; means of thirty spheres of each size, the band is one "
+                               "standard deviation."),
 }
 FRAMES = ("Row streaming on one thread, a bumpy sphere that turns by a degree a frame: as a draw list of strips and fans, which hold most "
           "points twice; as patches, which hold them once; with patches that keep their places as long as they are as they were; and with "

@@ -194,6 +194,16 @@ class Page(unittest.TestCase):
         self.made(())
         self.assertIn("<td>far/uniform<td>2<td>3<td>", self.text)
 
+    def test_what_repetitions_contradict_has_no_bar_and_no_ratio(self):
+        runs = [{"name": f"{route}/steady/bumpy/faces:4000/depth:3/threads:1", "points/s": rate, "spread": spread, "real_time": 9.0,
+                 "cpu_time": 1.0, "time_unit": "ms"}
+                for route, rate, spread in (("far/uniform", 2e6, 1.1), ("row-stream/avx512", 9e6, 1.7), ("row-stream/avx2", 6e6, 1.1))]
+        (self.folder / "throughput.json").write_text(json.dumps({"benchmarks": runs}))
+        self.made(())
+        bars = self.text.partition("<table class=bars>")[2].partition("</table>")[0]
+        self.assertNotIn("avx512", bars)
+        self.assertIn("<td>far/uniform<td>2<td>3<td>1.10<td>1 ms", self.text, "the fastest that was measured, by the clock that counts")
+
     def test_what_clock_a_time_is_of_is_said_beside_it(self):
         self.made()
         for section in ("frames", "throughput"):
@@ -239,9 +249,13 @@ class Page(unittest.TestCase):
 
     def test_a_claim_that_did_not_run_is_not_called_held(self):
         self.made(("claims",))
-        row = self.text.partition("<span id=C02>")[2].partition("\n")[0]
+        with mock.patch.dict(RESULTS["claims"]["claims"][2], ran=False, held=None):
+            self.made(("claims",))
+        row = self.text.partition("<span id=C79>")[2].partition("\n")[0]
         self.assertIn("not run", row)
         self.assertNotIn("green", row)
+        row = self.text.partition("<span id=C02>")[2].partition("\n")[0]
+        self.assertIn(">none<", row, "as the headline counts what no test could decide")
         self.assertIn("red", self.text.partition("<span id=C01>")[2].partition("\n")[0])
 
     def test_a_sentence_has_one_verdict_wherever_it_is_judged(self):

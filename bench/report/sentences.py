@@ -68,9 +68,9 @@ def sentences(claims, timings):
         known = [by_id[i] for i in ids if i in by_id]
         body = ""
         for c in known:
-            today = mark(c["held"] if c["ran"] else None)
+            today = mark(c)
             said = " ".join(text(c[key]) for key in ("note", "finding") if c.get(key)) if name not in TIMED else ""
-            body += (f"<p><a href='#{c['id']}'>{c['id']}</a>, section {text(c['place'])}: <q>{text(c['statement'])}</q></p>"
+            body += (f"<p><a href='#{c['id']}'>{c['id']}</a>, section {text(c['place'])}: <i>{text(c['statement'])}</i></p>"
                      f"<p>We conclude: {badge(c['verdict'])}; our test: {today}. {said}</p>")
             body += figures_of(c) if name not in TIMED else ""
         if name in times:

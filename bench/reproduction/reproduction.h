@@ -47,6 +47,9 @@ nlohmann::ordered_json maps(std::vector<std::string> wanted);
 nlohmann::ordered_json timings(const nlohmann::ordered_json& spheres, const nlohmann::ordered_json& matched,
                                bool quick);
 
+/// Repetitions that differ by a larger factor have measured nothing; as in bench/report/tables.py.
+inline constexpr double kWidest = 1.5;
+
 /// Of a quantity that the text says exceeds a bound, measured with repetitions that differed by a factor
 /// `spread`: what their disagreement leaves to be said. The words are those of timings().
 const char* outcome(double quantity, double bound, double spread);

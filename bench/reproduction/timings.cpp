@@ -62,9 +62,12 @@ Json adaptive_is_faster(const Json& spheres, const Json& matched) {
       for (const Json& row : matched["rows"]) {
         if (row["measure"] != measure || row["as"] != "uniform-3" || row[family].is_null()) continue;
         const Json &a = row[family], &u = row["uniform"];
+        const double ratio = a["frames_per_second"].get<double>() / u["frames_per_second"].get<double>();
+        const double of_a = a["spread"], of_u = u["spread"];
+        judge(ratio, of_a * of_u);
+        if (std::max(of_a, of_u) > kWidest) continue;
         faces.push_back(row["faces"]);
-        ratios.push_back(a["frames_per_second"].get<double>() / u["frames_per_second"].get<double>());
-        judge(ratios.back(), a["spread"].get<double>() * u["spread"].get<double>());
+        ratios.push_back(ratio);
       }
       all.push_back(series(
           fmt::format("frames per second of {} over those of uniform depth, at the {} of uniform depth 3",
@@ -84,14 +87,15 @@ Json adaptive_is_faster(const Json& spheres, const Json& matched) {
             .c_str(),
         "faces", faces, ratios));
   }
-  return {
-      {"id", "T4"},
-      {"outcome", all_of(outcomes)},
-      {"figures",
-       fmt::format("At equal error adaptive depth is faster in {} of {} comparisons, slower in {}, and in {} "
-                   "the difference is within the spread of the repetitions, a factor of up to {:.2f}",
-                   faster, outcomes.size(), slower, unknown, widest)},
-      {"series", std::move(all)}};
+  return {{"id", "T4"},
+          {"outcome", all_of(outcomes)},
+          {"figures", fmt::format("At the error of uniform depth 3, with the paper's fans, adaptive depth is "
+                                  "faster in {} of {} comparisons, slower in {}, and in {} "
+                                  "the difference is within the spread of the repetitions of both, a factor "
+                                  "of up to {:.2f}, or that is "
+                                  "more than {}",
+                                  faster, outcomes.size(), slower, unknown, widest, kWidest)},
+          {"series", std::move(all)}};
 }
 
 /// Processor time of a frame per limit point, uniform depths 3 to 7: the least of some frames, and their
@@ -151,6 +155,7 @@ Json ten_frames(const Json& spheres) {
 }  // namespace
 
 const char* outcome(double quantity, double bound, double spread) {
+  if (spread > kWidest) return kNotMeasured;
   if (quantity / spread > bound) return kAsSaid;
   if (quantity * spread < bound) return kNotAsSaid;
   return kNotMeasured;

@@ -247,7 +247,7 @@ TEST(Sec41_ConeAngle, OfFrontVerticesAndOfTheSilhouetteInThePicture) {
 
 // "The increasing curvature takes over and prevents the project-sphere heuristic from introducing artifacts": pixels
 // that are off, of either strategy at the same setting, as the number of faces grows.
-TEST(Sec6_Combined, KeepsFromMostArtifactsAsCurvatureGrows) {
+TEST(Sec6_Combined, KeepsFromSomeArtifactsAsCurvatureGrows) {
   RecordProperty("claim", "C91");
   double before = 1;
   for (const int faces : kFaces) {

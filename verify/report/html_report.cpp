@@ -124,8 +124,9 @@ std::string to_html(const Report& report, const std::vector<Cause>& causes,
   // Nothing in it ends the script element.
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
   std::string page = kHtmlPage;
-  put(page, "%PLAIN%", plain(data));
+  // In this order: names of subjects may be anything, and what is put in first lies behind the other place.
   put(page, "%DATA%", text);
+  put(page, "%PLAIN%", plain(data));
   return page;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,8 @@ PointBound worst_errors(const data::ControlMesh& mesh, data::Scheme scheme,
                         const fast::DrawList<float>& frame) {
   const reference::Surface surface(mesh, scheme);
   const double diagonal = data::box_diagonal(mesh);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (frame.vertices.empty()) return {kNaN, kNaN};
   PointBound worst{0, 0};
   for (std::size_t k = 0; k < frame.vertices.size(); ++k) {
     const fast::LatticePoint& at = frame.provenance[k];
@@ -81,10 +84,12 @@ double pixel_error(const data::ControlMesh& mesh, data::Scheme scheme, const fas
         const auto [a, b, c] = corner;
         const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 2;
         if (area <= 0) return;
+        all += area;  // NaN stays
+        if (!std::isfinite(area)) return;
         const auto drawn = screen(middle.position), exact = screen(point(middle.exact.position));
         errors.emplace_back(std::hypot(drawn[0] - exact[0], drawn[1] - exact[1]), area);
-        all += area;
       });
+  if (!(all > 0)) return std::numeric_limits<double>::quiet_NaN();
   std::sort(errors.begin(), errors.end());
   double covered = 0;
   for (const auto& [error, area] : errors)

@@ -17,13 +17,14 @@ struct PointBound {
 };
 
 /// The largest errors of a frame's vertices against the limit surface of the control mesh in double (StamError).
-/// The frame has provenance.
+/// The frame has provenance. NaN if it has no vertices, or one that is NaN.
 PointBound worst_errors(const data::ControlMesh& mesh, data::Scheme scheme,
                         const fast::DrawList<float>& frame);
 
 /// How far, on the screen of `camera` and in pixels, the middle of a drawn triangle is from the point of the limit
 /// surface at the same parameter: not exceeded by 99 % of the pixels that triangles seen from the front cover (each
-/// counted with its own triangles, hidden ones as well). The mesh has triangles or quads; the frame has provenance.
+/// counted with its own triangles, hidden ones as well). The mesh has triangles or quads; the frame has provenance. NaN if
+/// nothing is seen from the front, or a vertex is NaN.
 double pixel_error(const data::ControlMesh& mesh, data::Scheme scheme, const fast::Camera& camera,
                    const fast::DrawList<float>& frame);
 

@@ -79,6 +79,16 @@ TEST_P(EqualError, OfPixelsIsThatOfAFrameMovedAside) {
   EXPECT_LT(pixels_of(shot), aside * camera.focal_pixels() / nearest + before);
 }
 
+TEST_P(EqualError, IsNotKeptByAFrameOfNothingOrWithANaN) {
+  Shot shot = frame_of(GetParam(), 2);
+  shot.frame.vertices[shot.frame.vertices.size() / 2].position.y = std::nanf("");
+  EXPECT_FALSE(pixels_of(shot) <= 1e9);
+  EXPECT_FALSE(bench::worst_errors(shot.mesh, shot.scheme, shot.frame).position <= 1e9);
+  shot.frame = {};
+  EXPECT_FALSE(pixels_of(shot) <= 1e9);
+  EXPECT_FALSE(bench::worst_errors(shot.mesh, shot.scheme, shot.frame).position <= 1e9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Schemes, EqualError,
                          testing::Values(data::Scheme::kLoop, data::Scheme::kCatmullClark),
                          [](const auto& tested) {

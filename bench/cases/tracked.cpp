@@ -100,7 +100,7 @@ class Frames {
  public:
   explicit Frames(std::vector<Tracked>& list) : list_(list) {}
 
-  /// A frame and the one before it, by turns: of depths 0 to 4, of which in one face in forty deeper by one.
+  /// Two frames by turns, of depths 0 to 4; in one of them every fortieth face is deeper by one.
   template <class Output>
   void add(const Subject& subject, const std::string& form,
            const std::function<std::shared_ptr<Output>()>& output, const rs::Kernel* kernel = nullptr,

@@ -16,8 +16,6 @@ struct Tracked {
   std::string counted, timed;  // the names; empty: not that way
   /// Makes ready what must be there beforehand; what it returns is measured, and may be repeated.
   std::function<std::function<void()>(Way)> make;
-
-  const std::string& name(Way way) const { return way == Way::kCounted ? counted : timed; }
 };
 
 /// Kernels of every target that this machine has, in each output form, at depths 3 and 5; set-up; frames in each

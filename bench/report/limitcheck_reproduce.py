@@ -29,7 +29,7 @@ def arguments():
                "were not run (said in it), 2 bad usage.")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("build/report"),
                         help="folder of the report (default: %(default)s)")
-    parser.add_argument("--quick", action="store_true", help="fewer frames and meshes: two minutes instead of a quarter of an hour")
+    parser.add_argument("--quick", action="store_true", help="fewer frames and meshes: two minutes instead of a third of an hour")
     parser.add_argument("--only", action="append", metavar="PART", choices=PARTS,
                         help="make this part, and of the parts it needs those that are not in the folder; may be repeated")
     parser.add_argument("--map", action="append", metavar="SUBJECT@MESH[@DEPTH]", default=[],

@@ -122,7 +122,7 @@ def benchmark(shop, program, output, cases, *arguments):
     """The JSON of a benchmark's cases, of each the best of some repetitions: processor time of one thread, the wall's of more."""
     partial = shop.folder / f"{output}.partial"
     try:
-        shop.run([shop.bench / program, f"--benchmark_filter={cases}", *(["--benchmark_min_time=0.005"] if shop.quick else []),
+        shop.run([shop.bench / program, f"--benchmark_filter={cases}", f"--benchmark_min_time={0.005 if shop.quick else 0.03}",
                   f"--benchmark_repetitions={REPETITIONS}", "--benchmark_enable_random_interleaving=true", f"--benchmark_out={partial}", "--benchmark_out_format=json", *arguments])
         data = json.loads(partial.read_text(encoding="utf-8"))
         data["benchmarks"] = best_repetitions(data["benchmarks"])

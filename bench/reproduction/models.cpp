@@ -48,16 +48,18 @@ std::string base64(const std::vector<Number>& numbers) {
   return text;
 }
 
-/// Positions as 16-bit steps from a corner of their box, in few bytes.
+/// Positions as 16-bit steps from a corner of their box, in few bytes; what is not finite lies in that corner.
 Json packed(const std::vector<verify::Vector>& positions) {
   verify::Vector low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const auto& p : positions)
-    for (std::size_t c = 0; c < 3; ++c) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (std::isfinite(p[c])) low[c] = std::min(low[c], p[c]), high[c] = std::max(high[c], p[c]);
   const double step = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300}) / 65535;
   std::vector<std::int16_t> steps;
   for (const auto& p : positions)
     for (std::size_t c = 0; c < 3; ++c)
-      steps.push_back(static_cast<std::int16_t>(std::lround((p[c] - low[c]) / step) - 32768));
+      steps.push_back(static_cast<std::int16_t>(
+          std::isfinite(p[c]) ? std::lround((p[c] - low[c]) / step) - 32768 : -32768));
   return {{"low", low}, {"step", step}, {"steps", base64(steps)}};
 }
 
@@ -68,7 +70,8 @@ class Triangles {
   void corner(const verify::Vector& position, const verify::Vector& normal) {
     positions_.push_back(position);
     for (const double x : normal)
-      normals_.push_back(static_cast<std::int8_t>(std::lround(127 * std::clamp(x, -1., 1.))));
+      normals_.push_back(
+          static_cast<std::int8_t>(std::isfinite(x) ? std::lround(127 * std::clamp(x, -1., 1.)) : 0));
   }
   /// The triangle of the last three corners.
   ///   position   in diagonals; normal in degrees
@@ -153,6 +156,7 @@ Json map_of(const Wanted& w) {
     }
     triangles.triangle(off, turned, w.depth, 0);
   }
+  if (t.triangle_count() == 0) throw data::ArgumentError(w.subject + " delivers no triangles on " + w.mesh);
   Json out = triangles.json();
   out["title"] = fmt::format("{} on {}, depth {}", session.label(), w.mesh, w.depth);
   return out;

@@ -168,7 +168,7 @@ void draw_picture(const std::string& name, const std::filesystem::path& folder) 
   for (const Picture& picture : kPictures)
     if (picture.name == name) {
       Image image = picture.draw();
-      // 32 steps of each colour: half the file, and no eye sees it.
+      // 32 steps of each colour: half the file, for faint bands in the shades.
       for (auto& x : image.rgb) x = static_cast<std::uint8_t>(std::min(255, (x + 4) / 8 * 8));
       return write_png(folder / (name + ".png"), image);
     }

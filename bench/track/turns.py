@@ -56,7 +56,7 @@ def matching(programs, suite):
 
 
 def time_once(programs, suite, repetitions):
-    """Each case so many times, in random order, as Google Benchmark would write it."""
+    """Each case so many times, in random order, in the form that records of 0.1 have: processor time, under `real_time`."""
     cases, core = matching(programs, suite), random.choice(sorted(os.sched_getaffinity(0)))
     if not cases:
         raise measure.MeasureError(f"no case of {programs} matches '{suite}'")

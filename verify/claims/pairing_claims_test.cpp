@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Section 4.2: the greedy pairing, as corrected and as printed. [C35-C42]
+// Sections 4 and 4.3: what pairs gain, and what faces without a partner cost. [C88, C89]
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "fast/plan/depth.h"
 #include "fast/plan/pairing.h"
 #include "fast/plan/printed_rules.h"
+#include "fast/window/tessellator.h"
 #include "verify/claims/test_support/pairing_oracle.h"
 
 namespace limitcheck::verify {
@@ -293,6 +296,69 @@ TEST(Sec42_Depths, CulledFacesTakingPartWouldBeRevived) {
     RecordProperty(fmt::format("percent_revived_{}", faces),
                    text(100. * static_cast<double>(revived) / static_cast<double>(culled)));
     EXPECT_GT(revived, 0);
+  }
+}
+
+/// Of a mesh at one depth: what its frame takes for each triangle that it draws.
+struct PerTriangle {
+  double points, vertices, strips;
+};
+PerTriangle per_triangle(const data::ControlMesh& mesh, int depth) {
+  fast::Tessellator<float> engine(mesh);
+  fast::DrawList<float> out;
+  const auto stats = engine.frame(std::vector<std::int32_t>(mesh.faces.size(), depth), out);
+  const auto all = static_cast<double>(stats.triangles);
+  return {static_cast<double>(stats.limit_points) / all, static_cast<double>(stats.vertices) / all,
+          static_cast<double>(stats.strips) / all};
+}
+
+// "Subdividing a pair of adjacent triangles at a time is more efficient": the same faces in pairs, and cut apart so
+// that each is alone.
+TEST(Sec4_Pairs, TakeFewerPointsVerticesAndStripsThanTrianglesAlone) {
+  RecordProperty("claim", "C88");
+  const auto mesh = data::bumpy_sphere(200, 1);
+  data::ControlMesh apart;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto at = static_cast<std::int32_t>(apart.positions.size());
+    for (const std::int32_t v : mesh.faces[f]) apart.positions.push_back(mesh.positions[v]);
+    apart.faces.push_back({at, at + 1, at + 2});
+  }
+  for (const int depth : {3, 5}) {
+    const PerTriangle pairs = per_triangle(mesh, depth), alone = per_triangle(apart, depth);
+    const auto record = [&](const char* what, double ratio) {
+      RecordProperty(fmt::format("{}_of_pairs_over_alone_at_depth_{}", what, depth),
+                     fmt::format("{:.2f}", ratio));
+      EXPECT_LT(ratio, 1) << what << " " << depth;
+    };
+    record("points", pairs.points / alone.points);
+    record("vertices", pairs.vertices / alone.vertices);
+    record("strips", pairs.strips / alone.strips);
+  }
+}
+
+// "As typically only few of them exist, this doesn't introduce a performance problem": points beyond the diagonal of
+// faces without partner, which are evaluated and not shown, of all points. A problem would be what shows in times, from
+// some per cent on.
+TEST(Sec43_DummyPartners, AreAboutOneInAHundredPoints) {
+  RecordProperty("claim", "C89");
+  for (const int faces : {200, 800, 2000, 4000}) {
+    const auto mesh = data::bumpy_sphere(faces, 1);
+    fast::Tessellator<float> engine(mesh);
+    for (const fast::Strategy strategy : {fast::Strategy::kUniform, fast::Strategy::kCombined}) {
+      fast::DrawList<float> out;
+      engine.frame(fast::DepthOptions{.strategy = strategy}, fast::Camera{}, out);
+      double wasted = 0, all = 0;
+      for (const fast::Grid& grid : engine.last_pairing().grids) {
+        const double steps = std::ldexp(1., grid.depth), points = (steps + 1) * (steps + 1);
+        all += points;
+        if (grid.face1 < 0) wasted += steps * (steps + 1) / 2;
+      }
+      const double percent = 100 * wasted / all;
+      RecordProperty(fmt::format("percent_of_points_of_dummies_{}_{}",
+                                 strategy == fast::Strategy::kUniform ? "uniform" : "combined", faces),
+                     fmt::format("{:.2f}", percent));
+      EXPECT_LT(percent, 2) << faces;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "data/channel.h"
 #include "data/faces.h"
 #include "data/sharpness.h"
 
@@ -16,12 +17,14 @@ namespace limitcheck::data {
 ///   faces       vertex indices 0..positions.size()-1, counter-clockwise seen from outside
 ///   sharpness   sharp edges and vertices; empty for a surface that is smooth but for its boundary
 ///   holes       faces that are not shown, but shape those around them; ascending
-/// The container does not check any of this; `validate` (data/validate.h) does.
+///   channels    values by corner, such as texture coordinates; each has a name of its own
+/// The container does not check any of this; `validate` (data/validate.h) and `fault_of` (data/channel.h) do.
 struct ControlMesh {
   std::vector<std::array<double, 3>> positions;
   Faces faces;
   Sharpness sharpness = {};
   std::vector<std::int32_t> holes = {};
+  std::vector<Channel> channels = {};
 
   friend bool operator==(const ControlMesh&, const ControlMesh&) = default;
 };

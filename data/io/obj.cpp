@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: `v`, `f`, and what may be read over; and OpenSubdiv's tags, which count from 0:
+// Wavefront OBJ: `v`, `vt`, `f`, and what may be read over; and OpenSubdiv's tags, which count from 0:
 //   t crease 2/1/0 A B SHARPNESS         one edge; or several: 4/2/0 A B C D S T; or 4/1/0 A B C D S
 //   t corner 1/1/0 V SHARPNESS           likewise
 //   t interpolateboundary 1/0/0 0|1|2    1: vertices of one face are held, 2: they are not, as without it; 0:
@@ -7,7 +7,8 @@
 //   t creasemethod 0/0/1 normal|chaikin
 //   t smoothtriangles 0/0/1 catmark|smooth
 //   t hole 2/0/0 F G                     faces that are not shown
-//   t facevarying...                     of texture coordinates: moves no point, and is read over with a note
+//   t facevaryinginterpolateboundary 1/0/0 0..5   the rule of the texture coordinates, as data/channel.h counts them
+//   t facevaryingpropagatecorners 1/0/0 0|1       1 makes corners-plus2 of corners-plus1
 // A sharpness is a decimal number or a fraction, 23/10. Hierarchical edits are refused.
 #include <fmt/core.h>
 
@@ -26,13 +27,12 @@
 namespace limitcheck::data::io {
 namespace {
 
-constexpr std::string_view kReadOver[] = {"vt",        "g",      "o",        "s",        "mg",  "usemtl",
-                                          "mtllib",    "usemap", "maplib",   "bevel",    "lod", "shadow_obj",
-                                          "trace_obj", "p",      "c_interp", "d_interp", "l"};
+constexpr std::string_view kReadOver[] = {"g",      "o",        "s",        "mg",  "usemtl",     "mtllib",
+                                          "usemap", "maplib",   "bevel",    "lod", "shadow_obj", "trace_obj",
+                                          "p",      "c_interp", "d_interp", "l"};
 constexpr std::string_view kFreeForm[] = {"vp",   "cstype", "deg",   "bmat", "step", "curv", "curv2",
                                           "surf", "parm",   "trim",  "hole", "scrv", "sp",   "end",
                                           "con",  "ctech",  "stech", "call", "fo"};
-constexpr std::string_view kMoveNothing[] = {"facevaryinginterpolateboundary", "facevaryingpropagatecorners"};
 constexpr std::string_view kEdits[] = {"vertexedit", "edgeedit", "faceedit"};
 
 template <class List>
@@ -52,6 +52,8 @@ class ObjReader {
         read_vertex();
       } else if (keyword == "vn") {
         read_normal();
+      } else if (keyword == "vt") {
+        read_texture();
       } else if (keyword == "f") {
         read_face();
       } else if (keyword == "t") {
@@ -62,6 +64,8 @@ class ObjReader {
         scanner_.syntax_error(fmt::format("unknown keyword {}", quoted(keyword)));
       }
     }
+    if (propagates_corners_ && soup_.texture_rule.value_or(kUsualChannelRule) == ChannelRule::kCornersPlus1)
+      soup_.texture_rule = ChannelRule::kCornersPlus2;
     return std::move(soup_);
   }
 
@@ -81,6 +85,17 @@ class ObjReader {
       x = to_double(scanner_.word()).value_or(std::numeric_limits<double>::quiet_NaN());
     }
     soup_.normals.push_back(normal);
+  }
+
+  // u, or u v, or u v w: as many components as the first line has, the others are 0. What is no number makes the
+  // coordinates unusable, not the mesh.
+  void read_texture() {
+    std::vector<double> value;
+    for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word())
+      value.push_back(to_double(word).value_or(std::numeric_limits<double>::quiet_NaN()));
+    if (soup_.texture.empty()) soup_.texture_components = std::clamp(static_cast<int>(value.size()), 1, 3);
+    value.resize(static_cast<std::size_t>(soup_.texture_components), 0);
+    soup_.texture.insert(soup_.texture.end(), value.begin(), value.end());
   }
 
   // Three or more of v, v/vt, v//vn, v/vt/vn; indices from 1, or from the latest backwards if negative.
@@ -134,11 +149,6 @@ class ObjReader {
 
   void read_tag() {
     const std::string_view name = scanner_.word();
-    if (contains(kMoveNothing, name)) {
-      soup_.notes.push_back(
-          fmt::format("line {}: tag {} moves no point, and is read over", scanner_.line(), quoted(name)));
-      return;
-    }
     if (contains(kEdits, name))
       scanner_.fail("FILE_UNSUPPORTED",
                     fmt::format("tag {} is a hierarchical edit, which moves points of a refined mesh and is "
@@ -186,14 +196,27 @@ class ObjReader {
       choose(choices.creasing, {{"normal", Creasing::kUniform}, {"chaikin", Creasing::kChaikin}});
     } else if (name == "smoothtriangles") {
       choose(choices.triangles, {{"catmark", TriangleRule::kCatmark}, {"smooth", TriangleRule::kSmooth}});
+    } else if (name == "facevaryinginterpolateboundary" && tag.integers.size() == 1 && tag.integers[0] >= 0 &&
+               tag.integers[0] < static_cast<std::int64_t>(std::size(kChannelRules))) {
+      soup_.texture_rule = static_cast<ChannelRule>(tag.integers[0]);
+    } else if (name == "facevaryingpropagatecorners" && tag.integers.size() == 1) {
+      propagates_corners_ = tag.integers[0] != 0;
+    } else if (name.starts_with("facevarying")) {
+      soup_.notes.push_back(
+          fmt::format("line {}: tag {} moves no point, and is read over", scanner_.line(), quoted(name)));
     } else {
       scanner_.fail("FILE_UNSUPPORTED", fmt::format("tag {} is not read", quoted(name)));
     }
   }
 
+  // From 1, or backwards from the latest of `count`: -1 and less are none of them.
+  static std::int64_t from_zero(std::int64_t index, std::size_t count) {
+    return index > 0 ? index - 1 : index < 0 ? static_cast<std::int64_t>(count) + index : -2;
+  }
+
   std::int64_t vertex_of(std::string_view word) {
     std::string_view parts = word;
-    std::int64_t index = 0, normal = -1;
+    std::int64_t index = 0, normal = -1, texture = -1;
     for (int part = 0;; ++part) {
       const std::size_t slash = parts.find('/');
       const std::string_view text = parts.substr(0, slash);
@@ -203,12 +226,14 @@ class ObjReader {
         scanner_.syntax_error(fmt::format("a corner is v, v/vt, v//vn or v/vt/vn, not {}", quoted(word)));
       }
       if (part == 0) index = *value;
-      if (part == 2)
-        normal = *value > 0 ? *value - 1 : static_cast<std::int64_t>(soup_.normals.size()) + *value;
+      if (part == 1 && value)
+        texture = from_zero(*value, soup_.texture.size() / std::max(1, soup_.texture_components));
+      if (part == 2) normal = from_zero(*value, soup_.normals.size());
       if (slash == std::string_view::npos) break;
       parts.remove_prefix(slash + 1);
     }
     soup_.corner_normals.push_back(normal);
+    soup_.corner_texture.push_back(texture);
     const auto latest = static_cast<std::int64_t>(soup_.positions.size());
     if (index == 0 || index < -latest) {
       scanner_.fail(std::string(code(MeshFault::kIndexOutOfRange)),
@@ -220,6 +245,7 @@ class ObjReader {
 
   TextScanner scanner_;
   PolygonSoup soup_;
+  bool propagates_corners_ = false;
 };
 
 }  // namespace

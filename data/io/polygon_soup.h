@@ -27,6 +27,12 @@ struct PolygonSoup {
   // OBJ: for each corner the index of its normal, -1 for none. Empty: normals[i] is that of position i.
   std::vector<std::int64_t> corner_normals;
 
+  // Texture coordinates, `texture_components` numbers each, and for each corner the index of its own, -1 for none; unchecked.
+  std::vector<double> texture;
+  std::vector<std::int64_t> corner_texture;
+  int texture_components = 0;
+  std::optional<ChannelRule> texture_rule;
+
   // Sharp edges, and sharp vertices (b is -1); boundary, creasing and rule for triangles are in `choices`.
   struct SharpTag {
     std::int64_t a, b;

@@ -92,8 +92,8 @@ TEST(Tags, ThatAreWrongAreNamedWithTheirLine) {
 }
 
 // Of what moves no point nothing is lost; what does is refused by its name.
-TEST(Tags, OfTextureCoordinatesAreReadOverWithANoteAndEditsAreRefused) {
-  for (const char* tag : {"facevaryinginterpolateboundary 1/0/0 1", "facevaryingpropagatecorners 1/0/0 1"}) {
+TEST(Tags, WithoutAMeaningAreReadOverWithANoteAndEditsAreRefused) {
+  for (const char* tag : {"facevaryinginterpolateboundary 1/0/0 6", "facevaryingunheardof 1/0/0 1"}) {
     const auto found =
         io::examine(io::read_obj(kCube + "t " + tag + "\nt corner 1/1/0 0 3\n", "cube.obj"), {});
     ASSERT_EQ(found.notes.size(), 1U) << tag;

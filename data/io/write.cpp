@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <span>
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"
@@ -34,12 +35,26 @@ void append_tags(std::string& text, const Sharpness& sharpness) {
 void append_obj(std::string& text, const ControlMesh& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p[0], p[1], p[2]);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+  // The format has a place for one channel, of up to three components.
+  const auto found = std::find_if(mesh.channels.begin(), mesh.channels.end(),
+                                  [](const Channel& c) { return c.name == "uv" && c.components <= 3; });
+  const Channel* const uv = found == mesh.channels.end() ? nullptr : &*found;
+  if (uv)
+    for (std::size_t i = 0; i < uv->values.size(); i += static_cast<std::size_t>(uv->components))
+      fmt::format_to(
+          std::back_inserter(text), "vt {}\n",
+          fmt::join(std::span(uv->values).subspan(i, static_cast<std::size_t>(uv->components)), " "));
+  for (std::size_t f = 0, corner = 0; f < mesh.faces.size(); ++f) {
     text += 'f';
-    for (const std::int32_t v : mesh.faces[f])
+    for (const std::int32_t v : mesh.faces[f]) {
       fmt::format_to(std::back_inserter(text), " {}", std::int64_t{v} + 1);
+      if (uv) fmt::format_to(std::back_inserter(text), "/{}", std::int64_t{uv->corners[corner++]} + 1);
+    }
     text += '\n';
   }
+  if (uv && uv->rule)
+    fmt::format_to(std::back_inserter(text), "t facevaryinginterpolateboundary 1/0/0 {}\n",
+                   static_cast<int>(*uv->rule));
   append_tags(text, mesh.sharpness);
   for (const std::int32_t f : mesh.holes) fmt::format_to(std::back_inserter(text), "t hole 1/0/0 {}\n", f);
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "data/channel.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "data/control_mesh.h"
+#include "data/error.h"
+
+namespace limitcheck::data {
+
+std::string fault_of(const Channel& channel, const ControlMesh& mesh, std::int64_t first) {
+  if (channel.components < 1 || channel.components > kMostComponents)
+    return fmt::format("a value has 1 to {} components, not {}", kMostComponents, channel.components);
+  const auto components = static_cast<std::size_t>(channel.components);
+  if (channel.values.size() % components != 0)
+    return fmt::format("{} numbers are no values of {} components", channel.values.size(), components);
+  const std::size_t values = channel.values.size() / components, corners = mesh.faces.corners().size();
+  for (std::size_t i = 0; i < channel.values.size(); ++i)
+    if (!std::isfinite(channel.values[i]))
+      return fmt::format("value {} is not finite", first + static_cast<std::int64_t>(i / components));
+  if (channel.corners.size() != corners)
+    return fmt::format("it has {} corners, the mesh has {}", channel.corners.size(), corners);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t c = mesh.faces.first_corner(f); c < mesh.faces.first_corner(f + 1); ++c) {
+      const std::int64_t index = channel.corners[c], face = first + static_cast<std::int64_t>(f);
+      if (index < 0) return fmt::format("face {} has a corner without a value", face);
+      if (static_cast<std::size_t>(index) >= values)
+        return fmt::format("face {} names value {}, there are {}", face, first + index, values);
+    }
+  return "";
+}
+
+const Channel& channel_of(const ControlMesh& mesh, std::string_view name) {
+  std::string known;
+  for (const Channel& channel : mesh.channels) {
+    if (channel.name == name) return channel;
+    known += (known.empty() ? "" : ", ") + channel.name;
+  }
+  throw ArgumentError(fmt::format("the mesh has no channel '{}'; {}", name,
+                                  known.empty() ? "it has none" : "it has " + known));
+}
+
+}  // namespace limitcheck::data

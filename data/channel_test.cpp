@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Channels: what makes one, and how OBJ has them.
+#include "data/channel.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "data/control_mesh.h"
+#include "data/error.h"
+#include "data/io/polygon_soup.h"
+#include "data/io/read.h"
+#include "data/io/write.h"
+#include "data/test_support/assertions.h"
+
+namespace limitcheck::data {
+namespace {
+
+// Two quads side by side; each has texture coordinates of its own along the edge between them.
+const std::string kPositions = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n";
+const std::string kTexture = "vt 0 0\nvt .5 0\nvt .5 1\nvt 0 1\nvt .6 0\nvt 1 0\nvt 1 1\nvt .6 1\n";
+const std::string kFaces = "f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/7 5/8\n";
+
+io::Examination read(const std::string& text, const ReadOptions& options = {}) {
+  return io::examine(io::read_obj(text, "two.obj"), options);
+}
+
+TEST(Channels, OfObjAreItsTextureCoordinates) {
+  const ControlMesh mesh = read(kPositions + kTexture + kFaces).mesh;
+  ASSERT_EQ(mesh.channels.size(), 1U);
+  const Channel& uv = channel_of(mesh, "uv");
+  EXPECT_EQ(uv.components, 2);
+  EXPECT_EQ(uv.corners, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(uv.at(4, 0), .6);
+  EXPECT_EQ(uv.at(7, 1), 1);
+  EXPECT_FALSE(uv.rule.has_value());
+  EXPECT_EQ(read(kPositions + kTexture + "f 1/-8 2/-7 5/-6 4/-5\nf 2/-4 3/-3 6/-2 5/-1\n").mesh, mesh);
+  EXPECT_TRUE(says(refusal_of<ArgumentError>([&] { channel_of(mesh, "colour"); }), "it has uv"));
+}
+
+TEST(Channels, OfObjHaveAsManyComponentsAsTheFirstLine) {
+  const auto components = [](const std::string& first) {
+    const ControlMesh mesh =
+        read("vt " + first + "\nvt 1 2 3 4\n" + kPositions + "f 1/1 2/2 5/1 4/2\nf 2/2 3/1 6/2 5/1\n").mesh;
+    return channel_of(mesh, "uv").values;
+  };
+  EXPECT_EQ(components("5"), (std::vector<double>{5, 1}));
+  EXPECT_EQ(components("5 6"), (std::vector<double>{5, 6, 1, 2}));
+  EXPECT_EQ(components("5 6 7"), (std::vector<double>{5, 6, 7, 1, 2, 3}));
+}
+
+TEST(Channels, OfObjHaveTheRuleOfTheTag) {
+  const auto rule = [](const std::string& tags) {
+    return channel_of(read(kPositions + kTexture + kFaces + tags).mesh, "uv").rule;
+  };
+  for (int k = 0; k < 6; ++k)
+    EXPECT_EQ(rule("t facevaryinginterpolateboundary 1/0/0 " + std::to_string(k) + "\n"),
+              static_cast<ChannelRule>(k));
+  EXPECT_EQ(rule("t facevaryingpropagatecorners 1/0/0 1\n"), ChannelRule::kCornersPlus2);
+  EXPECT_EQ(rule("t facevaryingpropagatecorners 1/0/0 0\n"), std::nullopt);
+  EXPECT_EQ(rule("t facevaryinginterpolateboundary 1/0/0 1\nt facevaryingpropagatecorners 1/0/0 1\n"),
+            ChannelRule::kCornersOnly);
+}
+
+TEST(Channels, AreWrittenAndReadAgain) {
+  ControlMesh mesh = read(kPositions + kTexture + kFaces + "t facevaryinginterpolateboundary 1/0/0 4\n").mesh;
+  EXPECT_EQ(read_mesh(mesh_content(mesh, FileFormat::kObj), FileFormat::kObj, "again.obj"), mesh);
+  ControlMesh bare = mesh;
+  bare.channels.clear();
+  for (const FileFormat format : {FileFormat::kPly, FileFormat::kOff})  // these leave them out
+    EXPECT_EQ(read_mesh(mesh_content(mesh, format), format, "again"), bare);
+}
+
+TEST(Channels, FollowTheCornersOfPolygonsThatAreCut) {
+  const ControlMesh mesh = read(kPositions + kTexture + kFaces, {.polygons = Triangulation::kFan}).mesh;
+  EXPECT_EQ(channel_of(mesh, "uv").corners, (std::vector<std::int32_t>{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7}));
+}
+
+// What makes texture coordinates unusable does not make the mesh so.
+TEST(Channels, ThatAreUnusableAreLeftOutWithANote) {
+  const auto note = [](const std::string& texture, const std::string& faces) {
+    const auto found = read(kPositions + texture + faces);
+    EXPECT_TRUE(found.faults.empty());
+    EXPECT_TRUE(found.mesh.channels.empty());
+    return found.notes.size() == 1 ? found.notes[0] : std::to_string(found.notes.size()) + " notes";
+  };
+  EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2 3/6 6/7 5/8\n"),
+            "the texture coordinates are left out: face 2 has a corner without a value");
+  EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/9 5/8\n"),
+            "the texture coordinates are left out: face 2 names value 9, there are 8");
+  EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/99999999999 3/6 6/7 5/8\n"),
+            "the texture coordinates are left out: face 2 names value 9, there are 8");
+  EXPECT_EQ(note(kTexture + "vt x 1\n", kFaces),
+            "the texture coordinates are left out: value 9 is not finite");
+  EXPECT_EQ(note("", "f 1 2 5 4\nf 2 3 6 5\n"), "0 notes");
+}
+
+TEST(Channels, FaultsAreNamed) {
+  const ControlMesh mesh = read(kPositions + kTexture + kFaces).mesh;
+  Channel channel = mesh.channels[0];
+  EXPECT_EQ(fault_of(channel, mesh), "");
+  channel.corners.pop_back();
+  EXPECT_EQ(fault_of(channel, mesh), "it has 7 corners, the mesh has 8");
+  channel = mesh.channels[0];
+  channel.values.pop_back();
+  EXPECT_EQ(fault_of(channel, mesh), "15 numbers are no values of 2 components");
+  channel = mesh.channels[0];
+  channel.components = 5;
+  EXPECT_EQ(fault_of(channel, mesh), "a value has 1 to 4 components, not 5");
+  channel = mesh.channels[0];
+  channel.values[3] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(fault_of(channel, mesh), "value 1 is not finite");
+}
+
+}  // namespace
+}  // namespace limitcheck::data

@@ -20,10 +20,6 @@ Rational exact_sharpness(const Parameter& given) {
   return given.as_double() > 11 ? infinite : std::min(exact_value(given), infinite);
 }
 
-Rational one_less(const Rational& s) {
-  return Sharpness::is_infinite(s) ? s : s > 1 ? Rational(s - 1) : Rational(0);
-}
-
 /// The edge between two vertices, or -1.
 std::int32_t edge_between(const Topology& topology, std::int32_t a, std::int32_t b) {
   const auto count = static_cast<std::int32_t>(topology.vertex_count());
@@ -74,7 +70,7 @@ bool Sharpness::is_smooth_around(const Topology& topology, std::int32_t v) const
   return std::none_of(edges.begin(), edges.end(), [&](std::int32_t e) { return is_sharp(topology, e); });
 }
 
-Rational Sharpness::child_at(const Topology& topology, std::int32_t e, std::int32_t v) const {
+Rational Sharpness::half_after_step(const Topology& topology, std::int32_t e, std::int32_t v) const {
   const Rational& s = edge(e);
   if (!is_semi_sharp(s)) return s;
   Rational sum;
@@ -95,7 +91,8 @@ Rational Sharpness::edge_share(const Topology& topology, std::int32_t e) const {
   const Rational& s = edge(e);
   if (s >= 1 || s == 0) return s == 0 ? Rational(0) : Rational(1);
   const Edge& ends = topology.edges()[static_cast<std::size_t>(e)];
-  if (chaikin_ && child_at(topology, e, ends.a) > 0 && child_at(topology, e, ends.b) > 0) return 1;
+  if (chaikin_ && half_after_step(topology, e, ends.a) > 0 && half_after_step(topology, e, ends.b) > 0)
+    return 1;
   return s;
 }
 
@@ -115,7 +112,7 @@ VertexRules Sharpness::rules(const Topology& topology, std::int32_t v) const {
     if (parents < 2) result.parent.ends[static_cast<std::size_t>(parents)] = end;
     ++parents;
     const bool lasts = stays_sharp(topology, e);
-    const Rational after = lasts ? Rational(10) : child_at(topology, e, v);
+    const Rational after = lasts ? Rational(10) : half_after_step(topology, e, v);
     if (!lasts) vanishes(edge(e), after);
     if (after == 0) continue;
     if (children < 2) result.child.ends[static_cast<std::size_t>(children)] = end;
@@ -146,7 +143,8 @@ Sharpness Sharpness::refined(const Topology& topology, const Topology& finer) co
     const auto [v, point] = std::minmax(finer.edges()[e].a, finer.edges()[e].b);
     const auto parent = static_cast<std::size_t>(point) - vertices;
     if (static_cast<std::size_t>(v) >= vertices || parent >= edges) continue;
-    if (!edge_.is_zero(parent)) result.edge_.set(e, child_at(topology, static_cast<std::int32_t>(parent), v));
+    if (!edge_.is_zero(parent))
+      result.edge_.set(e, half_after_step(topology, static_cast<std::int32_t>(parent), v));
   }
   return result;
 }

@@ -58,12 +58,18 @@ class Sharpness {
   Sharpness(const Topology& topology, const SharpTags& tags);
 
   const Rational& edge(std::int32_t e) const { return edge_[static_cast<std::size_t>(e)]; }
+  const Rational& vertex(std::int32_t v) const { return vertex_[static_cast<std::size_t>(v)]; }
   data::Creasing creasing() const { return chaikin_ ? data::Creasing::kChaikin : data::Creasing::kUniform; }
   /// Whether an edge is smooth, and a vertex with all its edges.
   bool is_smooth(std::int32_t e) const { return edge_.is_zero(static_cast<std::size_t>(e)); }
   bool is_smooth_around(const Topology& topology, std::int32_t v) const;
   static bool is_infinite(const Rational& s) { return s >= 10; }
   static bool is_semi_sharp(const Rational& s) { return s > 0 && s < 10; }
+  /// After a step: of a vertex, and of the half of an edge at its end v.
+  static Rational one_less(const Rational& s) {
+    return is_infinite(s) ? s : s > 1 ? Rational(s - 1) : Rational(0);
+  }
+  Rational half_after_step(const Topology& topology, std::int32_t e, std::int32_t v) const;
 
   /// How much the midpoint counts in the point of an edge: the rest is the smooth rule's.
   Rational edge_share(const Topology& topology, std::int32_t e) const;
@@ -102,8 +108,6 @@ class Sharpness {
            (!is_smooth(e) && is_infinite(edge(e)));
   }
   int lasting_edges(const Topology& topology, std::int32_t v) const;
-  /// Of the half of an edge at its end v, after a step.
-  Rational child_at(const Topology& topology, std::int32_t e, std::int32_t v) const;
 
   SparseRationals edge_, vertex_;
   bool chaikin_ = false;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Certified values of a face-varying channel: decimal numbers with radii that are guaranteed to hold the true values.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "data/channel.h"
+#include "data/control_mesh.h"
+#include "data/scheme.h"
+#include "reference/surface/certified.h"
+
+namespace limitcheck::reference {
+
+/// The limit of a channel and its derivatives by the parameters of a face, exactly as SURFACE.md defines it.
+class ChannelEvaluator {
+ public:
+  /// How the limit is found. The two are of different kind and give the same.
+  enum class Method {
+    kCut,  ///< the mesh is cut along the seams, and its ordinary surface evaluated (kSteps where no cut is exact)
+    kSteps  ///< steps by the channel's rules on the whole mesh as long as semi-sharp tags are near, and then the cut
+  };
+
+  /// Numbers are taken as the exact binary fractions they are. Loop's scheme is that with Loop's weights.
+  /// Throws data::ArgumentError: as CertifiedEvaluator and data::fault_of say.
+  ChannelEvaluator(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule,
+                   data::Scheme scheme, Method method = Method::kCut);
+  ~ChannelEvaluator();
+
+  /// At a point of a face, as CertifiedEvaluator::evaluate, whose `digits` and errors it has.
+  ///   returns   for components 0 to 2, and if there are more, for the others: coordinates of positions and derivatives;
+  ///             those beyond the last component are 0. Normals and curvatures say nothing
+  std::vector<CertifiedPoint> evaluate(int face, int corner, const Parameter& u, const Parameter& v,
+                                       int digits) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+}  // namespace limitcheck::reference

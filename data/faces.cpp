@@ -152,20 +152,31 @@ Triangulated triangulate(const ControlMesh& mesh, Triangulation rule) {
   Triangulated result;
   result.faces.reserve(mesh.faces.size());
   result.face.reserve(mesh.faces.size());
+  for (const Channel& c : mesh.channels)
+    result.channels.push_back({c.name, c.components, c.values, {}, c.rule});
+  std::vector<std::int32_t> face;
+  // A face of some corners of face f.
+  const auto put = [&](std::size_t f, std::span<const std::size_t> corners) {
+    face.clear();
+    for (const std::size_t k : corners) face.push_back(mesh.faces[f][k]);
+    result.faces.push_back(face);
+    result.face.push_back(static_cast<std::int64_t>(f));
+    for (std::size_t c = 0; c < result.channels.size(); ++c)
+      for (const std::size_t k : corners)
+        result.channels[c].corners.push_back(mesh.channels[c].corners[mesh.faces.first_corner(f) + k]);
+  };
+  std::vector<std::size_t> all;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto face = mesh.faces[f];
-    const std::size_t n = face.size();
+    const std::size_t n = mesh.faces[f].size();
     if (n <= 3 || rule == Triangulation::kKeep) {
-      result.faces.push_back(face);
-      result.face.push_back(static_cast<std::int64_t>(f));
+      all.resize(n);
+      std::iota(all.begin(), all.end(), std::size_t{0});
+      put(f, all);
       continue;
     }
     ++result.cut;
-    const std::size_t first = apex(mesh, face, rule);
-    for (std::size_t k = 1; k + 1 < n; ++k) {
-      result.faces.push_back({face[first], face[(first + k) % n], face[(first + k + 1) % n]});
-      result.face.push_back(static_cast<std::int64_t>(f));
-    }
+    const std::size_t first = apex(mesh, mesh.faces[f], rule);
+    for (std::size_t k = 1; k + 1 < n; ++k) put(f, std::array{first, (first + k) % n, (first + k + 1) % n});
   }
   return result;
 }

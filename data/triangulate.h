@@ -23,9 +23,10 @@ struct Triangulated {
   Faces faces;                     ///< the triangles of a polygon follow one another
   std::vector<std::int64_t> face;  ///< for each triangle the face of the mesh that it was cut from
   std::int64_t cut = 0;            ///< so many faces were cut
+  std::vector<Channel> channels;   ///< of the mesh, at the corners of the triangles
 };
 
-/// Takes any faces; a quad that names a vertex which does not exist is cut as kFan. The triangles of a
+/// Takes any faces, and channels of as many corners; a quad that names a vertex which does not exist is cut as kFan. The triangles of a
 /// manifold may be none: two polygons that share two opposite corners may both be cut between them.
 Triangulated triangulate(const ControlMesh& mesh, Triangulation rule);
 

@@ -12,6 +12,7 @@
 #include "data/building_blocks.h"
 #include "data/generators/awkward_meshes.h"
 #include "data/generators/bumpy_sphere.h"
+#include "data/generators/channel_meshes.h"
 #include "data/generators/every_neighbourhood.h"
 #include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
@@ -200,6 +201,12 @@ const std::vector<Entry>& entries() {
        [](P p) { return neighbourhoods(p, true); }},
       {"quad-neighbourhoods:MOST:KINDS:K", "the same amid quads and other faces",
        [](P p) { return neighbourhoods(p, false); }},
+      {"uv-cube", "quad-cube with texture coordinates in six charts", plain(cube_with_atlas)},
+      {"uv-globe[:AROUND:ACROSS]",
+       "a sphere with texture coordinates, a seam along a meridian; 12 x 6 unless given",
+       [](P p) { return globe(p.count(0, 12), p.count(1, 6)); }},
+      {"uv-torus[:AROUND:ACROSS]", "quad-torus with texture coordinates in one chart, cut along two circles",
+       [](P p) { return torus_in_a_chart(p.count(0, 12), p.count(1, 6)); }},
       {"crowd:N", "N tetrahedra apart: beyond 16384 they have more vertices than 16 bits number",
        [](P p) { return crowd(p.count(0)); }},
       {"quad-crowd:N", "N cubes of quads apart: beyond 8192 the same",
@@ -253,6 +260,11 @@ const std::vector<Operation>& operations() {
        "a mesh with any sharp edges, vertices and options in place of its own", kMostOfAll,
        [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
          return with_any_tags(std::move(mesh), seed);
+       }},
+      {"uv:", "uv:SEED:NAME...",
+       "a mesh with texture coordinates in charts drawn by chance, and a rule for them", kMostOfAll,
+       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
+         return with_random_channel(std::move(mesh), seed);
        }}};
   return all;
 }
@@ -339,6 +351,7 @@ OpenedMesh open_named_mesh(const std::string& specification, const ReadOptions& 
   if (triangles.cut > 0) {
     mesh.faces = std::move(triangles.faces);
     mesh.holes.clear();  // no generator makes any
+    mesh.channels = std::move(triangles.channels);
   }
   if (triangles.cut > 0 || options.scheme)
     if (const auto faults = validate(mesh, options.scheme.value_or(natural_scheme(mesh))); !faults.empty())

@@ -88,31 +88,21 @@ std::vector<bool> beside_boundary(const ControlMesh& mesh) {
   return result;
 }
 
-// The texture coordinates of the file as the channel "uv"; a file whose coordinates are unusable is still one of a mesh,
-// and a note says why they are left out.
+// The texture coordinates of the file as the channel "uv". Where they are unusable, the mesh is not, and a note says why
+// they are left out.
 //   polygon_of   of each face
 void add_texture(const PolygonSoup& soup, const std::vector<std::int64_t>& polygon_of, Examination& result) {
-  const ControlMesh& mesh = result.mesh;
-  if (soup.texture.empty() || soup.corner_texture.size() != soup.corners.size()) return;
-  if (std::all_of(soup.corner_texture.begin(), soup.corner_texture.end(), [](auto i) { return i < 0; }))
+  if (std::all_of(soup.corner_texture.begin(), soup.corner_texture.end(), [](auto i) { return i == -1; }))
     return;
-  Channel channel{"uv", soup.texture_components, soup.texture, {}, soup.texture_rule};
-  const auto values = static_cast<std::int64_t>(soup.texture.size()) / soup.texture_components;
-  channel.corners.reserve(mesh.faces.corners().size());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto polygon = static_cast<std::size_t>(polygon_of[f]);
-    const auto begin =
-        soup.corners.begin() + static_cast<std::ptrdiff_t>(polygon == 0 ? 0 : soup.polygon_end[polygon - 1]);
-    for (const std::int32_t v : mesh.faces[f]) {
-      // A triangle that was cut from a polygon has corners of it; a polygon names a vertex once.
-      const auto at =
-          static_cast<std::size_t>(std::find(begin, soup.corners.end(), v) - soup.corners.begin());
-      const std::int64_t index = soup.corner_texture[at];
-      channel.corners.push_back(index < -1 || index > values ? static_cast<std::int32_t>(values)
-                                                             : static_cast<std::int32_t>(index));
+  Channel channel{"uv", std::max(1, soup.texture_components), soup.texture, {}, soup.texture_rule};
+  const auto values = static_cast<std::int64_t>(soup.texture.size()) / channel.components;
+  for (const std::int64_t polygon : polygon_of)
+    for (std::size_t c = polygon == 0 ? 0 : soup.polygon_end[polygon - 1]; c < soup.polygon_end[polygon];
+         ++c) {
+      const std::int64_t index = soup.corner_texture[c];
+      channel.corners.push_back(static_cast<std::int32_t>(index < -1 ? values : std::min(index, values)));
     }
-  }
-  if (const std::string fault = fault_of(channel, mesh, soup.first); !fault.empty())
+  if (const std::string fault = fault_of(channel, result.mesh, soup.first); !fault.empty())
     result.notes.push_back(fmt::format("the texture coordinates are left out: {}", fault));
   else
     result.mesh.channels.push_back(std::move(channel));
@@ -178,9 +168,12 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     mesh.faces.push_back(face);
     polygon_of.push_back(number);
   }
+  result.notes = soup.notes;
+  add_texture(soup, polygon_of, result);
   if (!keep) {
     Triangulated triangles = triangulate(mesh, options.polygons);
     mesh.faces = std::move(triangles.faces);
+    mesh.channels = std::move(triangles.channels);
     for (std::int64_t& f : triangles.face) f = polygon_of[f];
     polygon_of = std::move(triangles.face);
     result.cut = triangles.cut;
@@ -205,8 +198,6 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
       soup.hides_boundary ? beside_boundary(mesh) : std::vector<bool>(mesh.faces.size());
   for (std::size_t f = 0; f < polygon_of.size(); ++f)
     if (is_hole[polygon_of[f]] || hidden[f]) mesh.holes.push_back(static_cast<std::int32_t>(f));
-  result.notes = soup.notes;
-  add_texture(soup, polygon_of, result);
   if (const auto count = std::count(hidden.begin(), hidden.end(), true); count > 0)
     result.notes.push_back(
         fmt::format("{} of {} faces lie beside a boundary that is not interpolated: they are "

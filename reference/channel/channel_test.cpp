@@ -2,6 +2,9 @@
 // Channels by two methods: cut along the seams, and step by step on the whole mesh. [known_answers_channels.json]
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -10,8 +13,10 @@
 
 #include "data/control_mesh.h"
 #include "data/error.h"
-#include "data/shapes.h"
-#include "data/splitmix64.h"
+#include "data/generators/channel_meshes.h"
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
 #include "reference/number/number_exact.h"
@@ -125,6 +130,116 @@ INSTANTIATE_TEST_SUITE_P(Answers, KnownChannels, testing::Range(std::size_t{0}, 
                          [](const auto& answer) {
                            return answers().at(answer.param).at("id").template get<std::string>();
                          });
+
+// The values after some steps by the channel's rules, and those of the mesh that is cut along its seams, corner by
+// corner: the same numbers. Loop's weights are irrational: there they differ by rounding.
+template <class N>
+void expect_same_nets(const ControlMesh& mesh, ChannelRule rule, data::Scheme scheme, int& compared) {
+  const Channel& uv = mesh.channels.at(0);
+  std::vector<Vec3<N>> values;
+  for (std::size_t c = 0; c < uv.corners.size(); ++c)
+    values.push_back({N(uv.at(c, 0)), N(uv.at(c, 1)), N(0)});
+  ChannelMesh<N> rules(
+      ChannelTopology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, uv.corners, rule), values);
+  const ChannelCut cut = cut_and_hold(rules, mesh.sharpness.triangles);
+  if (!cut.is_exact) return;
+  std::vector<Vec3<N>> points;
+  for (const std::size_t c : cut.corner_of) points.push_back(values[c]);
+  Topology topology(points.size(), cut.faces);
+  Sharpness sharpness(topology, cut.tags);
+  TaggedMesh<N> plain{std::move(topology), std::move(points), std::move(sharpness)};
+  for (int step = 1; step <= 2; ++step) {
+    rules = refine_once(rules, scheme, mesh.sharpness.triangles);
+    plain = scheme == data::Scheme::kLoop ? refine_once(plain, Weights::kLoop)
+                                          : catmull_clark::refine_once(plain, mesh.sharpness.triangles);
+    const auto corners = plain.topology.faces().corners();
+    ASSERT_EQ(rules.values.size(), corners.size());
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const Vec3<N> off = rules.values[c] - plain.positions[static_cast<std::size_t>(corners[c])];
+      ASSERT_LE(NumberTraits<N>::approximate(magnitude(off)), 1e2 * NumberTraits<N>::kRounding)
+          << "step " << step << " corner " << c;
+    }
+  }
+  ++compared;
+}
+
+TEST(RandomChannels, AreTheSameByTheirRulesAndByTheCut) {
+  int compared = 0, chaikin = 0;
+  for (std::uint64_t seed = 1; seed <= 1250; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const auto rule = static_cast<ChannelRule>(seed % 5);  // `all` is no surface of the cut
+    ControlMesh mesh =
+        seed % 3 == 0 ? data::random_mesh(seed, {.faces = 12}) : data::mixed_mesh(seed, {.faces = 16});
+    if (seed % 4 != 0) mesh = data::with_random_sharpness(std::move(mesh), seed);
+    if (seed % 2 == 0) mesh.sharpness.creasing = data::Creasing::kUniform;
+    mesh = data::with_random_channel(std::move(mesh), seed);
+    expect_same_nets<Rational>(mesh, rule, data::Scheme::kCatmullClark, compared);
+    if (mesh.faces.are_triangles()) expect_same_nets<Decimal50>(mesh, rule, data::Scheme::kLoop, compared);
+    chaikin += mesh.sharpness.creasing == data::Creasing::kChaikin ? 1 : 0;
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GE(compared, 1000);
+  EXPECT_GE(chaikin, 100);
+}
+
+// Both methods of evaluation, with semi-sharp tags near: the steps end in another mesh than the cut.
+TEST(RandomChannels, HaveTheSameLimitsByBothMethods) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const bool loop = seed % 2 == 0;
+    ControlMesh mesh = loop ? data::random_mesh(seed, {.faces = 30}) : data::mixed_mesh(seed, {.faces = 30});
+    mesh = data::with_random_channel(data::with_random_sharpness(std::move(mesh), seed), seed);
+    const data::Scheme scheme = loop ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
+    const ChannelEvaluator by_cut(mesh, mesh.channels[0], *mesh.channels[0].rule, scheme),
+        by_steps(mesh, mesh.channels[0], *mesh.channels[0].rule, scheme, Method::kSteps);
+    for (int f = 0; f < 8; ++f)
+      for (const auto& [u, v] : {std::array{"1/3", "1/4"}, {"3/5", "3/10"}, {"0", "0"}, {"1/7", "6/7"}}) {
+        const auto a = by_cut.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v), 30)[0],
+                   b = by_steps.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v), 30)[0];
+        const auto same = [&](const Enclosure3& x, const Enclosure3& y) {
+          for (std::size_t k = 0; k < 2; ++k)
+            EXPECT_NEAR(std::stod(x[k].value), std::stod(y[k].value),
+                        1e-12 * (1 + std::abs(std::stod(x[k].value))))
+                << "seed " << seed << " face " << f << " " << u << " " << v;
+        };
+        same(a.position, b.position);
+        EXPECT_EQ(a.first_exist, b.first_exist) << "seed " << seed << " face " << f << " " << u << " " << v;
+        if (a.first_exist && b.first_exist) same(a.d1, b.d1), same(a.d2, b.d2);
+        if (a.d11 && b.d11) same(*a.d11, *b.d11), same(*a.d12, *b.d12), same(*a.d22, *b.d22);
+      }
+  }
+}
+
+TEST(Channels, OfFourComponentsAreTwoPoints) {
+  ControlMesh mesh = data::cube_with_atlas();
+  Channel four = mesh.channels[0];
+  four.components = 4;
+  four.values.clear();
+  for (std::size_t i = 0; i < mesh.channels[0].values.size(); i += 2)
+    for (const double factor : {1., 2., 3., 4.}) four.values.push_back(factor * mesh.channels[0].values[i]);
+  const ChannelEvaluator channel(mesh, four, ChannelRule::kNone, data::Scheme::kCatmullClark);
+  const auto points = channel.evaluate(3, 0, .25, .5, 20);
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_NEAR(std::stod(points[1].position[0].value), 4 * std::stod(points[0].position[0].value), 1e-12);
+  EXPECT_EQ(std::stod(points[1].position[1].value), 0);
+}
+
+TEST(Channels, OfRuleAllAreBilinearOnTheQuartersOfPolygons) {
+  ControlMesh mesh;
+  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {1, 3, 0}, {0, 2, 0}};
+  mesh.faces.push_back({0, 1, 2, 3, 4});
+  const Channel uv{.name = "uv", .values = {0, 0, 2, 0, 3, 1, 1, 3, 0, 2}, .corners = {0, 1, 2, 3, 4}};
+  const ChannelEvaluator channel(mesh, uv, ChannelRule::kAll, data::Scheme::kCatmullClark);
+  const auto middle = channel.evaluate(0, 2, 1., 1., 20)[0], edge = channel.evaluate(0, 2, 1., 0., 20)[0];
+  EXPECT_NEAR(std::stod(middle.position[0].value), 1.2, 1e-15);
+  EXPECT_NEAR(std::stod(middle.position[1].value), 1.2, 1e-15);
+  EXPECT_NEAR(std::stod(edge.position[0].value), 2, 1e-15);
+  EXPECT_THROW(channel.evaluate(0, 5, 0., 0., 20), data::ArgumentError);
+  EXPECT_THROW(channel.evaluate(1, 0, 0., 0., 20), data::ArgumentError);
+  Channel wrong = uv;
+  wrong.corners[0] = 5;
+  EXPECT_THROW(ChannelEvaluator(mesh, wrong, ChannelRule::kAll, data::Scheme::kCatmullClark),
+               data::ArgumentError);
+}
 
 }  // namespace
 }  // namespace limitcheck::reference

@@ -17,8 +17,8 @@
 #include "reference/loop/stam.h"
 #include "reference/mesh/sharpness.h"
 #include "reference/mesh/support.h"
-#include "reference/number/ball.h"
 #include "reference/point/parameter_exact.h"
+#include "reference/surface/certify.h"
 #include "reference/surface/near_part.h"
 
 namespace limitcheck::reference {
@@ -28,18 +28,14 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // More than the roundings of a few operations in double.
 constexpr double kUpward = 1 + 1e-14;
 
-/// The point of a mesh of few faces.
-SurfacePoint<Ball> evaluate_in_balls(const data::Faces& faces, std::vector<Vec3<Ball>> positions,
-                                     data::Scheme scheme, Weights weights, const SharpTags& tags,
-                                     const Valences& valences, int corner, const Parameter& a,
-                                     const Parameter& b) {
+SurfacePoint<Ball> evaluate_in_balls(const PartWithPoint& part, data::Scheme scheme, Weights weights) {
   if (scheme == data::Scheme::kCatmullClark)
-    return catmull_clark::StamEvaluator<Ball>(faces, std::move(positions), tags, valences)
-        .evaluate(0, corner, a, b);
-  if (corner != 0) throw data::ArgumentError("a triangle has one domain, with corner 0");
-  return StamEvaluator<Ball>(std::move(positions), data::Triangles(faces).to_vector(), weights, tags,
-                             valences)
-      .evaluate(0, a, b);
+    return catmull_clark::StamEvaluator<Ball>(part.faces, part.positions(), part.tags, part.valences)
+        .evaluate(0, part.corner, part.u, part.v);
+  if (part.corner != 0) throw data::ArgumentError("a triangle has one domain, with corner 0");
+  return StamEvaluator<Ball>(part.positions(), data::Triangles(part.faces).to_vector(), weights, part.tags,
+                             part.valences)
+      .evaluate(0, part.u, part.v);
 }
 
 /// Largest decimal exponent e with 10^e <= the magnitude the ball may have; very small for an exact zero.
@@ -281,7 +277,6 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
 
 CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Parameter& l1, const Parameter& l2,
                                             int digits) const {
-  if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
     throw data::ArgumentError("no face " + std::to_string(face));
   std::optional<NearPart> part;
@@ -296,11 +291,23 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     part = NearPart{local.faces, {}, {}, corner};
     for (const std::int32_t v : local.vertices) part->positions.push_back(data_->position(v));
   }
+  const auto positions = [exact = std::move(part->positions)] {
+    std::vector<Vec3<Ball>> result;
+    for (const auto& p : exact)
+      result.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
+                        NumberTraits<Ball>::from_rational(p[2])});
+    return result;
+  };
+  return certify({part->faces, tags, part->valences, part->corner, l1, l2, 1, positions}, data_->scheme,
+                 data_->weights, digits);
+}
 
+CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights weights, int digits) {
+  if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   const long first = static_cast<long>(digits * 3.33) + 64;
   // Next to a corner quantities fall and rise with powers of the distance, which costs that many bits: the
   // curvatures take the eighth power. The distance is no smaller than the parameters' digits allow.
-  const long nearness = 8 * 4 * static_cast<long>(l1.to_string().size() + l2.to_string().size());
+  const long nearness = 8 * 4 * static_cast<long>(part.u.to_string().size() + part.v.to_string().size());
   struct Restore {
     long saved = Ball::precision();
     ~Restore() { Ball::precision() = saved; }
@@ -308,13 +315,12 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
   for (long bits = first;; bits *= 2) {
     Ball::precision() = bits;
     const bool last_chance = bits >= 8 * first + nearness;
-    std::vector<Vec3<Ball>> positions;
-    for (const auto& p : part->positions)
-      positions.push_back({NumberTraits<Ball>::from_rational(p[0]), NumberTraits<Ball>::from_rational(p[1]),
-                           NumberTraits<Ball>::from_rational(p[2])});
-    const SurfacePoint<Ball> s =
-        evaluate_in_balls(part->faces, std::move(positions), data_->scheme, data_->weights, tags,
-                          part->valences, part->corner, l1, l2);
+    SurfacePoint<Ball> s = evaluate_in_balls(part, scheme, weights);
+    if (part.factor != 1) {
+      const Ball factor = NumberTraits<Ball>::from_rational(part.factor), squared = factor * factor;
+      for (Vec3<Ball>* d : {&s.d1, &s.d2}) *d *= factor;
+      for (Vec3<Ball>* d : {&s.d11, &s.d12, &s.d22}) *d *= squared;
+    }
     const bool has_normal =
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
     if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
@@ -347,7 +353,7 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     }
     result.radius = print.largest();
     result.precision = bits;
-    result.faces = part->faces.size();
+    result.faces = part.faces.size();
     if ((print.enough() && print_curvature.enough()) || last_chance) return result;
   }
 }

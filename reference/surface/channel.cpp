@@ -10,42 +10,51 @@
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
 #include "reference/point/parameter_exact.h"
+#include "reference/surface/certify.h"
 
 namespace limitcheck::reference {
 namespace {
 
-using Values = std::vector<Vec3<Rational>>;
+using Block = std::vector<std::array<double, 3>>;  // three components of the values at all corners
 
-std::array<std::string, 3> text_of(const Vec3<Rational>& value, const Rational& factor) {
-  return {Rational(value.x * factor).str(), Rational(value.y * factor).str(),
-          Rational(value.z * factor).str()};
-}
-
-/// A face on which the channel is to be evaluated, in the cut mesh of which it is face 0, and the point on it.
-struct Settled {
-  ChannelCut cut;
-  Values values;  // of the vertices of the cut
-  int corner = 0;
-  Parameter u, v;
-  Rational factor = 1;  // of the derivatives by the parameters of the given face
-};
-
-Settled settled(const ChannelMesh<Rational>& near, data::TriangleRule triangles, int corner,
-                const Parameter& u, const Parameter& v) {
-  Settled result{cut_and_hold(near, triangles), {}, corner, u, v};
-  for (const std::size_t c : result.cut.corner_of) result.values.push_back(near.values[c]);
+template <class N>
+std::vector<Vec3<N>> numbers(const Block& block) {
+  std::vector<Vec3<N>> result;
+  for (const auto& value : block)
+    result.push_back({NumberTraits<N>::from_double(value[0]), NumberTraits<N>::from_double(value[1]),
+                      NumberTraits<N>::from_double(value[2])});
   return result;
 }
 
-Parameter parameter(const Rational& p) {
-  return Parameter::parse(p.str());
+/// The cut mesh in whose face 0 a point is, with the values of its vertices.
+template <class N>
+struct Settled {
+  ChannelCut cut;
+  std::vector<Vec3<N>> values;
+  int corner;
+  Rational u, v, factor;  // the last of the derivatives by the parameters of the given face
+};
+
+template <class N>
+std::vector<Vec3<N>> values_of(const ChannelCut& cut, const std::vector<Vec3<N>>& at_corners) {
+  std::vector<Vec3<N>> result;
+  for (const std::size_t c : cut.corner_of) result.push_back(at_corners[c]);
+  return result;
+}
+template <class N>
+Settled<N> settled(const ChannelMesh<N>& near, data::TriangleRule triangles, int corner, const Rational& u,
+                   const Rational& v, const Rational& factor) {
+  Settled<N> result{cut_and_hold(near, triangles), {}, corner, u, v, factor};
+  result.values = values_of(result.cut, near.values);
+  return result;
 }
 
 // Steps on the whole mesh, of what is near the point, until no semi-sharp tag is left.
-Settled settled_by_steps(const ChannelMesh<Rational>& mesh, data::TriangleRule triangles, std::size_t face,
-                         int corner, const Parameter& first, const Parameter& second) {
-  ChannelMesh<Rational> near = mesh.around(face);
-  Rational factor = 1, u = exact_value(first), v = exact_value(second);
+template <class N>
+Settled<N> settled_by_steps(const ChannelMesh<N>& mesh, data::TriangleRule triangles, std::size_t face,
+                            int corner, Rational u, Rational v) {
+  ChannelMesh<N> near = mesh.around(face);
+  Rational factor = 1;
   const auto step_to = [&](std::size_t child) {
     near = refine_once(near, data::Scheme::kCatmullClark, triangles).around(child);
   };
@@ -58,58 +67,54 @@ Settled settled_by_steps(const ChannelMesh<Rational>& mesh, data::TriangleRule t
     u = 2 * u - (right ? 1 : 0), v = 2 * v - (up ? 1 : 0);
     step_to(up ? (right ? 2 : 3) : (right ? 1 : 0));
   }
-  Settled result = settled(near, triangles, corner, parameter(u), parameter(v));
-  result.factor = factor;
-  return result;
+  return settled(near, triangles, corner, u, v, factor);
 }
 
 // The same of triangles. The face is turned so that its parameters run along those of the given one, or against them.
-Settled settled_by_loop_steps(const ChannelMesh<Rational>& mesh, std::size_t face, const Parameter& first,
-                              const Parameter& second) {
-  ChannelMesh<Rational> near = mesh.around(face);
+template <class N>
+Settled<N> settled_by_loop_steps(const ChannelMesh<N>& mesh, std::size_t face, const Parameter& first,
+                                 const Parameter& second) {
+  ChannelMesh<N> near = mesh.around(face);
   const auto [l1, l2] = exact_parameters(first, second);
   SubFacePath<Rational> path(l1, l2);
   Rational factor = 1;
   for (; near.is_semi_sharp(0); factor *= 2)
     near = refine_once(near, data::Scheme::kLoop, data::TriangleRule::kCatmark)
                .around(static_cast<std::size_t>(path.descend()));
-  std::size_t turn =
-      0;  // of the corner whose weight is that of the first corner of the given face, but for its sign
+  std::size_t turn = 0;  // to the corner whose weight falls, or rises, along both parameters
   while (path.gradient[turn][0] != path.gradient[turn][1]) ++turn;
-  const int sign = path.gradient[turn][0] == -1 ? 1 : -1;
-  Settled result = settled(near, data::TriangleRule::kCatmark, 0, parameter(path.w[(turn + 1) % 3]),
-                           parameter(path.w[(turn + 2) % 3]));
+  if (path.gradient[turn][0] == 1) factor = -factor;
+  Settled<N> result =
+      settled(near, data::TriangleRule::kCatmark, 0, path.w[(turn + 1) % 3], path.w[(turn + 2) % 3], factor);
   const auto corners = result.cut.faces[0];
   std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(turn), corners.end());
-  result.factor = sign * factor;
   return result;
 }
 
 // Linear or bilinear: the surface of a face by itself whose corners are held; of a face that is no quad, of the quad at a
 // corner.
-Settled linear(const ChannelMesh<Rational>& mesh, bool loop, std::size_t face, int corner, const Parameter& u,
-               const Parameter& v) {
-  const std::size_t first = mesh.topology.faces().first_corner(face), n = mesh.topology.faces()[face].size();
-  Values values(mesh.values.begin() + static_cast<std::ptrdiff_t>(first),
-                mesh.values.begin() + static_cast<std::ptrdiff_t>(first + n));
+template <class N>
+Settled<N> linear(const ChannelMesh<N>& mesh, bool loop, std::size_t face, int corner, const Rational& u,
+                  const Rational& v) {
+  const auto first =
+      mesh.values.begin() + static_cast<std::ptrdiff_t>(mesh.topology.faces().first_corner(face));
+  const std::size_t n = mesh.topology.faces()[face].size();
+  std::vector<Vec3<N>> values(first, first + static_cast<std::ptrdiff_t>(n));
   if (!loop && n != 4) {
     const auto k = static_cast<std::size_t>(corner);
-    const Vec3<Rational>& c = values[k];
-    values = {c, boundary_edge_point(c, values[(k + 1) % n]), catmull_clark::face_point<Rational>(values),
+    const Vec3<N> c = values[k];
+    values = {c, boundary_edge_point(c, values[(k + 1) % n]), catmull_clark::face_point<N>(values),
               boundary_edge_point(c, values[(k + n - 1) % n])};
   }
-  Settled result{{}, values, 0, u, v};
+  Settled<N> result{{}, values, 0, u, v, 1};
   result.cut.faces = loop ? data::Faces{{0, 1, 2}} : data::Faces{{0, 1, 2, 3}};
   for (std::int32_t vertex = 0; vertex < static_cast<std::int32_t>(values.size()); ++vertex)
     result.cut.tags.vertices.push_back({vertex, Parameter(10.)});
   return result;
 }
 
-std::unique_ptr<const CertifiedEvaluator> evaluator(const Settled& on, data::Scheme scheme,
-                                                    const Rational& factor) {
-  std::vector<std::array<std::string, 3>> positions;
-  for (const Vec3<Rational>& value : on.values) positions.push_back(text_of(value, factor));
-  return std::make_unique<const CertifiedEvaluator>(positions, on.cut.faces, scheme, on.cut.tags);
+Parameter parameter(const Rational& p) {
+  return Parameter::parse(p.str());
 }
 
 }  // namespace
@@ -118,36 +123,48 @@ struct ChannelEvaluator::Data {
   data::Scheme scheme;
   data::ChannelRule rule;
   data::TriangleRule triangles;
-  std::vector<ChannelMesh<Rational>> blocks;  // of three components each
-  std::optional<ChannelCut> cut;              // if it is exact, and asked for
-  std::vector<std::unique_ptr<const CertifiedEvaluator>>
-      whole;  // of the cut of each, if it is exact and asked for
+  ChannelTopology channel;
+  std::vector<Block> blocks{};
+  std::vector<std::unique_ptr<const CertifiedEvaluator>> whole{};  // of the cut, if it is exact and asked for
 
   bool is_loop() const { return scheme == data::Scheme::kLoop; }
+
+  template <class N>
+  Settled<N> settled(const Block& block, std::size_t face, int corner, const Parameter& u,
+                     const Parameter& v) const {
+    const ChannelMesh<N> mesh(channel, numbers<N>(block));
+    const Rational a = exact_value(u), b = exact_value(v);
+    return rule == data::ChannelRule::kAll ? linear(mesh, is_loop(), face, corner, a, b)
+           : is_loop()                     ? settled_by_loop_steps(mesh, face, u, v)
+                                           : settled_by_steps(mesh, triangles, face, corner, a, b);
+  }
 };
 
 ChannelEvaluator::ChannelEvaluator(const data::ControlMesh& mesh, const data::Channel& channel,
                                    data::ChannelRule rule, data::Scheme scheme, Method method) {
   if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
     throw data::ArgumentError("channel '" + channel.name + "': " + fault);
-  auto data = std::make_unique<Data>(Data{scheme, rule, mesh.sharpness.triangles, {}, {}});
-  if (data->is_loop()) (void)triangles_of(mesh);  // or it throws
-  const ChannelTopology topology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners,
-                                 rule);
-  for (int block = 0; block < channel.components; block += 3) {
-    Values values(channel.corners.size());
-    const auto component = [&](std::size_t corner, int k) {
-      return block + k < channel.components ? Rational(channel.at(corner, block + k)) : Rational(0);
-    };
-    for (std::size_t c = 0; c < values.size(); ++c)
-      values[c] = {component(c, 0), component(c, 1), component(c, 2)};
-    data->blocks.emplace_back(topology, std::move(values));
+  if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
+  auto data = std::make_unique<Data>(Data{
+      scheme, rule, mesh.sharpness.triangles,
+      ChannelTopology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule)});
+  for (int first = 0; first < channel.components; first += 3) {
+    Block block(channel.corners.size());
+    for (std::size_t c = 0; c < block.size(); ++c)
+      for (int k = first; k < std::min(first + 3, channel.components); ++k)
+        block[c][static_cast<std::size_t>(k - first)] = channel.at(c, k);
+    data->blocks.push_back(std::move(block));
   }
-  if (method == Method::kCut && rule != data::ChannelRule::kAll) {
-    for (const ChannelMesh<Rational>& block : data->blocks)
-      if (const Settled whole = settled(block, data->triangles, 0, 0., 0.); whole.cut.is_exact)
-        data->whole.push_back(evaluator(whole, scheme, 1));
-  }
+  if (method == Method::kCut && rule != data::ChannelRule::kAll)
+    if (const ChannelCut cut = cut_and_hold(data->channel, data->triangles); cut.is_exact)
+      for (const Block& block : data->blocks) {
+        std::vector<std::array<std::string, 3>> positions;
+        for (const std::size_t c : cut.corner_of)
+          positions.push_back({Parameter(block[c][0]).to_string(), Parameter(block[c][1]).to_string(),
+                               Parameter(block[c][2]).to_string()});
+        data->whole.push_back(
+            std::make_unique<const CertifiedEvaluator>(positions, cut.faces, scheme, cut.tags));
+      }
   data_ = std::move(data);
 }
 
@@ -159,31 +176,22 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
   for (const auto& whole : data_->whole) result.push_back(whole->evaluate(face, corner, u, v, digits));
   if (!result.empty()) return result;
 
-  const data::Faces& faces = data_->blocks[0].topology.faces();
+  const data::Faces& faces = data_->channel.topology.faces();
   if (face < 0 || static_cast<std::size_t>(face) >= faces.size())
     throw data::ArgumentError("no face " + std::to_string(face));
   const auto f = static_cast<std::size_t>(face);
-  const std::size_t corners = faces[f].size();
-  if (corner < 0 || static_cast<std::size_t>(corner) >= (corners == 4 || data_->is_loop() ? 1 : corners))
+  if (corner < 0 ||
+      static_cast<std::size_t>(corner) >= (faces[f].size() == 4 || data_->is_loop() ? 1 : faces[f].size()))
     throw data::ArgumentError("face " + std::to_string(face) + " has no corner " + std::to_string(corner) +
                               " with a domain of its own");
-  for (const ChannelMesh<Rational>& block : data_->blocks) {
-    const Settled on = data_->rule == data::ChannelRule::kAll
-                           ? linear(block, data_->is_loop(), f, corner, u, v)
-                       : data_->is_loop() ? settled_by_loop_steps(block, f, u, v)
-                                          : settled_by_steps(block, data_->triangles, f, corner, u, v);
-    // Derivatives are those on the face that the steps end in times the factor, or its square: of values so much larger.
-    const auto times = [&](const Rational& factor) {
-      return evaluator(on, data_->scheme, factor)->evaluate(0, on.corner, on.u, on.v, digits);
-    };
-    CertifiedPoint point = times(1);
-    if (on.factor != 1) {
-      const CertifiedPoint first = times(on.factor), second = times(on.factor * on.factor);
-      point.d1 = first.d1, point.d2 = first.d2;
-      point.d11 = second.d11, point.d12 = second.d12, point.d22 = second.d22;
-      point.radius = std::max({point.radius, first.radius, second.radius});
-    }
-    result.push_back(std::move(point));
+  if (!(u.as_double() >= 0 && u.as_double() <= 1 && v.as_double() >= 0 && v.as_double() <= 1))
+    throw data::ArgumentError("parameters must be in 0..1");
+  for (const Block& block : data_->blocks) {
+    const Settled<double> on = data_->settled<double>(block, f, corner, u, v);
+    const auto values = [&] { return data_->settled<Ball>(block, f, corner, u, v).values; };
+    result.push_back(certify(
+        {on.cut.faces, on.cut.tags, {}, on.corner, parameter(on.u), parameter(on.v), on.factor, values},
+        data_->scheme, Weights::kLoop, digits));
   }
   return result;
 }

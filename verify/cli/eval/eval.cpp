@@ -9,6 +9,7 @@
 #include <string>
 
 #include "data/error.h"
+#include "reference/surface/channel.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -17,13 +18,17 @@ using reference::CertifiedEvaluator, reference::Parameter;
 
 // As a float tessellator sees the mesh.
 void round_to_float(data::ControlMesh& mesh) {
+  const auto round = [](double& x, const char* what, std::size_t number) {
+    const auto rounded = static_cast<double>(static_cast<float>(x));
+    if (!std::isfinite(rounded))
+      throw data::ArgumentError(fmt::format("{} {}: {} is beyond the largest float", what, number, x));
+    x = rounded;
+  };
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    for (double& x : mesh.positions[v]) {
-      const auto rounded = static_cast<double>(static_cast<float>(x));
-      if (!std::isfinite(rounded))
-        throw data::ArgumentError(fmt::format("vertex {}: {} is beyond the largest float", v, x));
-      x = rounded;
-    }
+    for (double& x : mesh.positions[v]) round(x, "vertex", v);
+  for (data::Channel& channel : mesh.channels)
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      round(channel.values[i], "texture value", i / static_cast<std::size_t>(channel.components));
 }
 
 int run(const EvalRequest& request) {
@@ -44,13 +49,23 @@ int run(const EvalRequest& request) {
   if (request.in_float) round_to_float(opened.mesh);
   check_face(request, opened, at);
   const Parameter u = Parameter::parse(request.u), v = Parameter::parse(request.v);
-  const reference::CertifiedPoint point =
-      certified_evaluator(request, opened)
-          .evaluate(static_cast<int>(at.face), at.corner.value_or(0), u, v, request.digits);
   EvaluatedPoint evaluated{request, opened.chosen, at, {u.to_string(), v.to_string()}};
   if (opened.chosen.scheme == data::Scheme::kLoop)
     evaluated.parameters.insert(evaluated.parameters.begin(), Parameter::complement(u, v).to_string());
-  request.json ? print_point_as_json(evaluated, point) : print_point(evaluated, point);
+  const auto face = static_cast<int>(at.face);
+  if (request.channel.empty()) {
+    evaluated.points = {
+        certified_evaluator(request, opened).evaluate(face, at.corner.value_or(0), u, v, request.digits)};
+  } else {
+    if (request.weights != reference::Weights::kLoop)
+      throw data::ArgumentError("--channel is evaluated with Loop's weights, not with Warren's");
+    const data::Channel& channel = data::channel_of(opened.mesh, request.channel);
+    evaluated.components = static_cast<std::size_t>(channel.components);
+    evaluated.rule = request.channel_rule.value_or(channel.rule.value_or(data::kUsualChannelRule));
+    evaluated.points = reference::ChannelEvaluator(opened.mesh, channel, evaluated.rule, opened.chosen.scheme)
+                           .evaluate(face, at.corner.value_or(0), u, v, request.digits);
+  }
+  request.json ? print_point_as_json(evaluated) : print_point(evaluated);
   return kHeld;
 }
 
@@ -155,6 +170,20 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "With --subject: how the faces get their depths, as for audit")
       ->needs(subject)
       ->capture_default_str();
+  CLI::Option* channel =
+      add_value(
+          *command, "--channel", request->channel, "NAME",
+          "Evaluate a face-varying channel of the mesh in place of its positions: uv, the texture "
+          "coordinates of an OBJ file or of a mesh by name. Face and parameters say on which side of a seam")
+          ->excludes(points)
+          ->excludes(subject);
+  Words<std::optional<data::ChannelRule>> rules;
+  for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k)
+    rules.push_back({std::string(data::kChannelRules[k]), static_cast<data::ChannelRule>(k)});
+  add_words(*command, "--channel-rule", request->channel_rule, rules,
+            "How a channel goes over seams and boundary, as USD's faceVaryingLinearInterpolation and "
+            "OpenSubdiv's FVarLinearInterpolation; by default as the file says, or else corners-plus1")
+      ->needs(channel);
   command->footer(
       "Catmull-Clark: on a quad (U, V) is (0, 0) at corner 0, (1, 0) at corner 1, (1, 1) and (0, 1) at "
       "corners 2 and 3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the "

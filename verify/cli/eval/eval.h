@@ -26,6 +26,8 @@ struct EvalRequest {
   std::string points;  // the file, or "-"
   bool certified = false;
   int derivatives = 0;
+  std::string channel;  // its name; none: positions
+  std::optional<data::ChannelRule> channel_rule;
 };
 inline const Words<reference::Weights> kWeights{{"loop", reference::Weights::kLoop},
                                                 {"warren", reference::Weights::kWarren}};
@@ -42,15 +44,19 @@ void check_face(const EvalRequest& request, const OpenedMesh& opened, const Face
 /// Throws data::ArgumentError: weights of the other scheme.
 reference::CertifiedEvaluator certified_evaluator(const EvalRequest& request, const OpenedMesh& opened);
 
-/// What was evaluated.
+/// What was evaluated: positions, or the values of a channel.
 struct EvaluatedPoint {
   const EvalRequest& request;
   MeshScheme chosen;
   FaceAndCorner at;
   std::vector<std::string> parameters;  // exact: l0, l1, l2 of Loop's scheme, u, v of Catmull-Clark's
+  /// The point; of a channel of more than three components one more, for the others.
+  std::vector<reference::CertifiedPoint> points{};
+  std::size_t components = 3;
+  data::ChannelRule rule{};
 };
-void print_point_as_json(const EvaluatedPoint& at, const reference::CertifiedPoint& p);
-void print_point(const EvaluatedPoint& at, const reference::CertifiedPoint& p);
+void print_point_as_json(const EvaluatedPoint& at);
+void print_point(const EvaluatedPoint& at);
 
 /// What the subject delivers at the point and what it should, and how far they are apart. Returns the exit code: 1 if a
 /// vertex is beyond its bounds or not finite, or if vertices that should be equal have other bits. Throws

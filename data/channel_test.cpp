@@ -86,14 +86,63 @@ TEST(Channels, ThatAreUnusableAreLeftOutWithANote) {
     return found.notes.size() == 1 ? found.notes[0] : std::to_string(found.notes.size()) + " notes";
   };
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2 3/6 6/7 5/8\n"),
-            "the texture coordinates are left out: face 2 has a corner without a value");
+            "the channel uv is left out: face 2 has a corner without a value");
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/9 5/8\n"),
-            "the texture coordinates are left out: face 2 names value 9, there are 8");
+            "the channel uv is left out: face 2 names value 9, there are 8");
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/99999999999 3/6 6/7 5/8\n"),
-            "the texture coordinates are left out: face 2 names value 9, there are 8");
-  EXPECT_EQ(note(kTexture + "vt x 1\n", kFaces),
-            "the texture coordinates are left out: value 9 is not finite");
+            "the channel uv is left out: face 2 names value 9, there are 8");
+  EXPECT_EQ(note(kTexture + "vt x 1\n", kFaces), "the channel uv is left out: value 9 is not finite");
   EXPECT_EQ(note("", "f 1 2 5 4\nf 2 3 6 5\n"), "0 notes");
+}
+
+// Ply has values of vertices, or of corners, which are the same where their numbers are.
+TEST(Channels, OfPlyAreThoseOfVerticesOrOfCorners) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n";
+  const auto read_ply = [](const std::string& text) { return read_mesh(text, FileFormat::kPly, "two.ply"); };
+  const ControlMesh by_vertex =
+      read_ply(header +
+               "property float s\nproperty float t\nelement face 2\nproperty list uchar int "
+               "vertex_indices\nend_header\n"
+               "0 0 0 0 0\n1 0 0 .5 0\n2 0 0 1 0\n0 1 0 0 1\n1 1 0 .5 1\n2 1 0 1 1\n4 0 1 4 3\n4 1 2 5 4\n");
+  EXPECT_EQ(channel_of(by_vertex, "uv").corners, (std::vector<std::int32_t>{0, 1, 4, 3, 1, 2, 5, 4}));
+  EXPECT_EQ(channel_of(by_vertex, "uv").at(2, 0), .5);
+  const ControlMesh by_corner = read_ply(header +
+                                         "element face 2\nproperty list uchar int vertex_indices\nproperty "
+                                         "list uchar float texcoord\nend_header\n"
+                                         "0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n"
+                                         "4 0 1 4 3 8 0 0 .5 0 .5 1 0 1\n4 1 2 5 4 8 .5 0 1 0 1 1 .75 1\n");
+  EXPECT_EQ(channel_of(by_corner, "uv").corners, (std::vector<std::int32_t>{0, 1, 2, 3, 1, 5, 6, 7}));
+}
+
+TEST(Channels, OfUsdaArePrimvars) {
+  const std::string mesh =
+      "#usda 1.0\ndef Mesh \"m\" {\n  point3f[] points = [(0,0,0), (1,0,0), (1,1,0), (0,1,0), (2,0,0), "
+      "(2,1,0)]\n"
+      "  int[] faceVertexCounts = [4, 4]\n  int[] faceVertexIndices = [0, 1, 2, 3, 1, 4, 5, 2]\n";
+  const auto read_usda = [&](const std::string& more) {
+    return read_mesh(mesh + more + "}\n", FileFormat::kUsda, "m.usda");
+  };
+  const ControlMesh indexed = read_usda(
+      "texCoord2f[] primvars:st = [(0,0), (.5,0), (.5,1), (0,1), (.6,0)] (interpolation = \"faceVarying\")\n"
+      "int[] primvars:st:indices = [0, 1, 2, 3, 4, 0, 0, 2]\nuniform token faceVaryingLinearInterpolation = "
+      "\"cornersPlus2\"\n"
+      "color3f[] primvars:displayColor = [(1, 0, 0)]\nfloat[] primvars:wet = [1, 2, 3, 4, 5, 6]\n");
+  ASSERT_EQ(indexed.channels.size(), 2U);
+  EXPECT_EQ(channel_of(indexed, "st").corners, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 0, 0, 2}));
+  EXPECT_EQ(channel_of(indexed, "st").rule, ChannelRule::kCornersPlus2);
+  EXPECT_EQ(channel_of(indexed, "wet").components, 1);
+  EXPECT_EQ(channel_of(indexed, "wet").rule, ChannelRule::kNone);
+  EXPECT_EQ(channel_of(indexed, "wet").corners, (std::vector<std::int32_t>{0, 1, 2, 3, 1, 4, 5, 2}));
+  const ControlMesh plain =
+      read_usda("float2[] primvars:st = [(0,0), (.5,0), (.5,1), (0,1), (.5,0), (1,0), (1,1), (.7,1)]\n");
+  EXPECT_EQ(channel_of(plain, "st").corners, (std::vector<std::int32_t>{0, 1, 2, 3, 1, 5, 6, 7}));
+  // A left-handed face is turned round, and its values with it.
+  const ControlMesh left = read_usda(
+      "float2[] primvars:st = [(0,0), (.5,0), (.5,1), (0,1), (.5,0), (1,0), (1,1), (.7,1)]\n"
+      "uniform token orientation = \"leftHanded\"\n");
+  EXPECT_EQ(left.faces[0][1], 3);
+  EXPECT_EQ(channel_of(left, "st").at(1, 1), 1);
 }
 
 TEST(Channels, FaultsAreNamed) {

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "data/io/gltf_matrix.h"
 #include "data/io/text_scanner.h"
 #include "data/io/whole_content.h"
 #include "data/untrusted_json.h"
@@ -22,8 +23,6 @@
 namespace limitcheck::data::io {
 namespace {
 
-using Matrix = std::array<double, 16>;  // by columns, as glTF has them
-constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 constexpr int kDeepest = 256;              // nodes above a mesh
 constexpr std::size_t kDeepestJson = 128;  // brackets: no glTF needs more than ten, and the parser recurses
 constexpr std::size_t kMost = 1 << 28;     // vertices, and corners: a small file may repeat a mesh very often
@@ -114,19 +113,6 @@ bool read_beside(std::vector<unsigned char>* out, std::string* error, const std:
   return false;
 }
 
-Matrix operator*(const Matrix& a, const Matrix& b) {
-  Matrix c{};
-  for (int column = 0; column < 4; ++column)
-    for (int row = 0; row < 4; ++row)
-      for (int k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-  return c;
-}
-
-double determinant(const Matrix& m) {
-  return m[0] * (m[5] * m[10] - m[9] * m[6]) - m[4] * (m[1] * m[10] - m[9] * m[2]) +
-         m[8] * (m[1] * m[6] - m[5] * m[2]);
-}
-
 class Reader {
  public:
   Reader(std::string_view content, bool binary, const std::string& folder, std::string name)
@@ -164,6 +150,7 @@ class Reader {
       const int scene = std::max(model_.defaultScene, 0);
       for (const int node : element(model_.scenes, scene, "scene").nodes) visit(node, kIdentity, 0);
     }
+    for (PolygonSoup::SoupChannel& channel : soup_.channels) channel.corners = soup_.corners;
     return std::move(soup_);
   }
 
@@ -279,12 +266,16 @@ class Reader {
     for (const tinygltf::Primitive& p : mesh.primitives) {
       const int mode = p.mode < 0 ? TINYGLTF_MODE_TRIANGLES : p.mode;
       if (mode < TINYGLTF_MODE_TRIANGLES) continue;  // points and lines
-      const auto attribute = [&](const char* name) {
+      const auto attribute = [&](const std::string& name) {
         const auto found = p.attributes.find(name);
         return found == p.attributes.end() ? -1 : found->second;
       };
       if (attribute("POSITION") < 0) continue;
-      const auto [first, vertex_count] = vertices(attribute("POSITION"), attribute("NORMAL"), m, node);
+      std::vector<int> texture;  // TEXCOORD_0, _1, ..
+      while (attribute(fmt::format("TEXCOORD_{}", texture.size())) >= 0)
+        texture.push_back(attribute(fmt::format("TEXCOORD_{}", texture.size())));
+      const auto [first, vertex_count] =
+          vertices(attribute("POSITION"), attribute("NORMAL"), texture, m, node);
       Bytes list;
       if (p.indices >= 0) list = bytes(p.indices, TINYGLTF_TYPE_SCALAR);
       if (soup_.positions.size() > kMost ||
@@ -308,9 +299,10 @@ class Reader {
   }
 
   // Where the vertices of these accessors begin, and how many there are; read once for each node.
-  std::pair<std::int64_t, std::int64_t> vertices(int positions, int normals, const Matrix& m, int node) {
+  std::pair<std::int64_t, std::int64_t> vertices(int positions, int normals, const std::vector<int>& texture,
+                                                 const Matrix& m, int node) {
     const auto begin = static_cast<std::int64_t>(soup_.positions.size());
-    const auto [known, is_new] = seen_.try_emplace({positions, normals, node}, begin, 0);
+    const auto [known, is_new] = seen_.try_emplace({positions, normals, texture, node}, begin, 0);
     if (!is_new) return known->second;
     const Bytes p = bytes(positions, TINYGLTF_TYPE_VEC3);
     Bytes n;
@@ -324,33 +316,32 @@ class Reader {
       if (normals >= 0) soup_.normals.push_back(m == kIdentity ? vector(n, k) : turned(m, vector(n, k)));
     }
     if (without_normals_) soup_.normals.clear();  // not of all: as if of none
+    for (std::size_t k = 0; k < texture.size(); ++k)
+      add_texture(k, texture[k], static_cast<std::size_t>(begin), p.count);
     known->second.second = static_cast<std::int64_t>(p.count);
     return known->second;
   }
 
-  static std::array<double, 3> moved(const Matrix& m, const std::array<double, 3>& p) {
-    std::array<double, 3> q{m[12], m[13], m[14]};
-    for (int row = 0; row < 3; ++row)
-      for (int k = 0; k < 3; ++k) q[row] += m[4 * k + row] * p[k];
-    return q;
-  }
-  // Normals go with the cofactors: the transposed inverse, but for its length and, when mirrored, its sign.
-  static std::array<double, 3> turned(const Matrix& m, const std::array<double, 3>& n) {
-    const double sign = determinant(m) < 0 ? -1 : 1;
-    std::array<double, 3> q{};
-    for (int row = 0; row < 3; ++row)
-      for (int k = 0; k < 3; ++k) {
-        const int r1 = (row + 1) % 3, r2 = (row + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-        q[row] += sign * (m[4 * k1 + r1] * m[4 * k2 + r2] - m[4 * k2 + r1] * m[4 * k1 + r2]) * n[k];
-      }
-    return q;
+  // Values of vertices from `begin` on; those of vertices without any are no numbers.
+  void add_texture(std::size_t channel, int accessor, std::size_t begin, std::size_t count) {
+    const Bytes values = bytes(accessor, TINYGLTF_TYPE_VEC2);
+    if (values.component != TINYGLTF_COMPONENT_TYPE_FLOAT || values.count != count)
+      return;  // bytes and shorts
+    while (soup_.channels.size() <= channel)
+      soup_.channels.push_back({.name = fmt::format("TEXCOORD_{}", soup_.channels.size()), .by_value = true});
+    std::vector<double>& all = soup_.channels[channel].values;
+    all.resize(2 * begin, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto value = number<std::array<float, 2>>(values[k]);
+      all.insert(all.end(), {value[0], value[1]});
+    }
   }
 
   std::string name_;
   tinygltf::Model model_;
   PolygonSoup soup_;
   std::vector<bool> visited_;  // nodes
-  std::map<std::tuple<int, int, int>, std::pair<std::int64_t, std::int64_t>> seen_;
+  std::map<std::tuple<int, int, std::vector<int>, int>, std::pair<std::int64_t, std::int64_t>> seen_;
   bool without_normals_ = false;
 };
 

@@ -64,8 +64,10 @@ class ObjReader {
         scanner_.syntax_error(fmt::format("unknown keyword {}", quoted(keyword)));
       }
     }
-    if (propagates_corners_ && soup_.texture_rule.value_or(kUsualChannelRule) == ChannelRule::kCornersPlus1)
-      soup_.texture_rule = ChannelRule::kCornersPlus2;
+    if (propagates_corners_ && uv_.rule.value_or(kUsualChannelRule) == ChannelRule::kCornersPlus1)
+      uv_.rule = ChannelRule::kCornersPlus2;
+    if (std::any_of(uv_.corners.begin(), uv_.corners.end(), [](std::int64_t i) { return i != -1; }))
+      soup_.channels.push_back(std::move(uv_));
     return std::move(soup_);
   }
 
@@ -93,9 +95,9 @@ class ObjReader {
     std::vector<double> value;
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word())
       value.push_back(to_double(word).value_or(std::numeric_limits<double>::quiet_NaN()));
-    if (soup_.texture.empty()) soup_.texture_components = std::clamp(static_cast<int>(value.size()), 1, 3);
-    value.resize(static_cast<std::size_t>(soup_.texture_components), 0);
-    soup_.texture.insert(soup_.texture.end(), value.begin(), value.end());
+    if (uv_.values.empty()) uv_.components = std::clamp(static_cast<int>(value.size()), 1, 3);
+    value.resize(static_cast<std::size_t>(uv_.components), 0);
+    uv_.values.insert(uv_.values.end(), value.begin(), value.end());
   }
 
   // Three or more of v, v/vt, v//vn, v/vt/vn; indices from 1, or from the latest backwards if negative.
@@ -198,7 +200,7 @@ class ObjReader {
       choose(choices.triangles, {{"catmark", TriangleRule::kCatmark}, {"smooth", TriangleRule::kSmooth}});
     } else if (name == "facevaryinginterpolateboundary" && tag.integers.size() == 1 && tag.integers[0] >= 0 &&
                tag.integers[0] < static_cast<std::int64_t>(std::size(kChannelRules))) {
-      soup_.texture_rule = static_cast<ChannelRule>(tag.integers[0]);
+      uv_.rule = static_cast<ChannelRule>(tag.integers[0]);
     } else if (name == "facevaryingpropagatecorners" && tag.integers.size() == 1) {
       propagates_corners_ = tag.integers[0] != 0;
     } else if (name.starts_with("facevarying")) {
@@ -227,13 +229,13 @@ class ObjReader {
       }
       if (part == 0) index = *value;
       if (part == 1 && value)
-        texture = from_zero(*value, soup_.texture.size() / std::max(1, soup_.texture_components));
+        texture = from_zero(*value, uv_.values.size() / static_cast<std::size_t>(uv_.components));
       if (part == 2) normal = from_zero(*value, soup_.normals.size());
       if (slash == std::string_view::npos) break;
       parts.remove_prefix(slash + 1);
     }
     soup_.corner_normals.push_back(normal);
-    soup_.corner_texture.push_back(texture);
+    uv_.corners.push_back(texture);
     const auto latest = static_cast<std::int64_t>(soup_.positions.size());
     if (index == 0 || index < -latest) {
       scanner_.fail(std::string(code(MeshFault::kIndexOutOfRange)),
@@ -245,6 +247,7 @@ class ObjReader {
 
   TextScanner scanner_;
   PolygonSoup soup_;
+  PolygonSoup::SoupChannel uv_{.name = "uv"};
   bool propagates_corners_ = false;
 };
 

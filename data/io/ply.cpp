@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Stanford PLY, ascii and binary of both byte orders. An element "edge" with vertex1, vertex2 and a sharpness
-// has the sharp edges.
+// has the sharp edges. Texture coordinates are the channel "uv": those of vertices (s t, u v, texture_u texture_v), or a list
+// "texcoord" of two for each corner of a face.
 //
 // Our own reader because neither library at hand keeps the promises of read.h: Assimp keeps positions in
 // float, takes truncated files for whole and loops on a missing end_header; CGAL allocates what a list count
@@ -8,176 +9,19 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstdint>
-#include <optional>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "data/error.h"
+#include "data/io/ply_body.h"
 #include "data/io/polygon_soup.h"
-#include "data/io/text_scanner.h"
 
 namespace limitcheck::data::io {
 namespace {
-
-enum class Encoding { kAscii, kLittleEndian, kBigEndian };
-
-struct Type {
-  std::size_t bytes = 0;
-  enum class Kind { kSigned, kUnsigned, kFloat } kind = Kind::kSigned;
-};
-
-struct Property {
-  std::string name;
-  Type type;
-  bool is_list = false;
-  Type count_type;  // of a list
-};
-
-struct Element {
-  std::string name;
-  std::int64_t count = 0;
-  std::vector<Property> properties;
-};
-
-std::optional<Type> type_named(std::string_view name) {
-  using Kind = Type::Kind;
-  struct Named {
-    std::string_view word, other;
-    Type type;
-  };
-  constexpr Named kTypes[] = {
-      {"char", "int8", {1, Kind::kSigned}},    {"uchar", "uint8", {1, Kind::kUnsigned}},
-      {"short", "int16", {2, Kind::kSigned}},  {"ushort", "uint16", {2, Kind::kUnsigned}},
-      {"int", "int32", {4, Kind::kSigned}},    {"uint", "uint32", {4, Kind::kUnsigned}},
-      {"float", "float32", {4, Kind::kFloat}}, {"double", "float64", {8, Kind::kFloat}}};
-  for (const Named& t : kTypes)
-    if (name == t.word || name == t.other) return t.type;
-  return std::nullopt;
-}
-
-// The numbers of the body one after another, whatever the encoding.
-class Body {
- public:
-  Body(std::string_view content, std::size_t offset, const std::string& name, Encoding encoding,
-       TextScanner& scanner)
-      : content_(content), at_(offset), name_(name), encoding_(encoding), scanner_(scanner) {}
-
-  // Before the numbers of an element: in ascii each has a line of its own.
-  void begin(const Element& element, std::int64_t index) {
-    element_ = &element;
-    index_ = index;
-    if (encoding_ == Encoding::kAscii && !scanner_.next_line()) {
-      scanner_.truncated(
-          fmt::format("ends after {} of {} elements \"{}\"", index, element.count, element.name));
-    }
-  }
-
-  void end() {
-    if (encoding_ == Encoding::kAscii) scanner_.end_of_line();
-  }
-
-  double real(const Property& property, const Type& type) {
-    if (type.kind != Type::Kind::kFloat) return static_cast<double>(integer(property, type));
-    if (encoding_ == Encoding::kAscii) {
-      const double value = scanner_.number(property.name);
-      return type.bytes == 4 ? static_cast<double>(static_cast<float>(value)) : value;
-    }
-    const std::uint64_t bits = raw(type.bytes);
-    return type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
-                           : std::bit_cast<double>(bits);
-  }
-
-  std::int64_t integer(const Property& property, const Type& type) {
-    if (encoding_ == Encoding::kAscii) {
-      const std::int64_t value = scanner_.integer(property.name);
-      const bool is_signed = type.kind == Type::Kind::kSigned;
-      const std::int64_t most = (std::int64_t{1} << (8 * type.bytes - (is_signed ? 1 : 0))) - 1;
-      if (value > most || value < (is_signed ? -most - 1 : 0)) {
-        scanner_.syntax_error(fmt::format("{} does not fit its type: {}", property.name, value));
-      }
-      return value;
-    }
-    const std::uint64_t bits = raw(type.bytes);
-    if (type.kind == Type::Kind::kUnsigned) return static_cast<std::int64_t>(bits);
-    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): every type has 1 to 8 bytes
-    const std::uint64_t sign = std::uint64_t{1} << (8 * type.bytes - 1);
-    return static_cast<std::int64_t>((bits ^ sign) - sign);
-  }
-
-  // How many numbers a list has; there are at least as many bytes left, so that a claim allocates nothing.
-  std::int64_t list_size(const Property& property) {
-    const std::int64_t size = integer(property, property.count_type);
-    if (size < 0) fail("FILE_SYNTAX", fmt::format("a list of {} entries", size));
-    const std::size_t left = encoding_ == Encoding::kAscii ? content_.size() : content_.size() - at_;
-    const std::size_t bytes = encoding_ == Encoding::kAscii ? 1 : property.type.bytes;
-    if (static_cast<std::size_t>(size) > left / bytes) {
-      fail("FILE_TRUNCATED",
-           fmt::format("a list of {} entries, {} bytes before the end of the file", size, left));
-    }
-    return size;
-  }
-
-  void skip(const Property& property) {
-    const auto size = static_cast<std::size_t>(property.is_list ? list_size(property) : 1);
-    if (encoding_ == Encoding::kAscii) {
-      for (std::size_t i = 0; i < size; ++i) scanner_.number(property.name);
-    } else {
-      need(size * property.type.bytes);
-      at_ += size * property.type.bytes;
-    }
-  }
-
-  // After the last element: nothing but white space.
-  void finish() {
-    if (encoding_ == Encoding::kAscii) {
-      if (scanner_.next_line()) scanner_.syntax_error("more lines than the header announces");
-      return;
-    }
-    const std::string_view rest = content_.substr(at_);
-    if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
-      throw InputError("FILE_SYNTAX", name_, 0,
-                       fmt::format("{} bytes more than the header announces", rest.size()));
-    }
-  }
-
-  std::int64_t line() const { return encoding_ == Encoding::kAscii ? scanner_.line() : 0; }
-
-  [[noreturn]] void fail(const std::string& code, const std::string& message) const {
-    throw InputError(code, name_, line(),
-                     fmt::format("{} (element \"{}\" {})", message, element_->name, index_));
-  }
-
- private:
-  void need(std::size_t bytes) const {
-    if (content_.size() - at_ < bytes) {
-      throw InputError(
-          "FILE_TRUNCATED", name_, 0,
-          fmt::format("ends within {} of {} elements \"{}\"", index_, element_->count, element_->name));
-    }
-  }
-
-  std::uint64_t raw(std::size_t bytes) {
-    need(bytes);
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < bytes; ++i) {
-      const auto byte = static_cast<unsigned char>(content_[at_ + i]);
-      bits |= std::uint64_t{byte} << 8 * (encoding_ == Encoding::kLittleEndian ? i : bytes - 1 - i);
-    }
-    at_ += bytes;
-    return bits;
-  }
-
-  std::string_view content_;
-  std::size_t at_;
-  const std::string& name_;
-  Encoding encoding_;
-  TextScanner& scanner_;
-  const Element* element_ = nullptr;
-  std::int64_t index_ = 0;
-};
 
 class PlyReader {
  public:
@@ -201,6 +45,11 @@ class PlyReader {
       }
     }
     body.finish();
+    if (!uv_.name.empty()) {
+      uv_.corners = soup_.corners;
+      if (uv_.by_value) std::iota(uv_.corners.begin(), uv_.corners.end(), std::int64_t{0});
+      soup_.channels.push_back(std::move(uv_));
+    }
     return std::move(soup_);
   }
 
@@ -299,30 +148,35 @@ class PlyReader {
   }
 
   void read_vertices(const Element& element, Body& body) {
-    std::array<std::size_t, 3> place{}, normal_place{};
-    bool has_normals = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      place[axis] = property_named(element, {std::string(1, "xyz"[axis])}, false);
-      const auto& all = element.properties;
-      const auto it = std::find_if(all.begin(), all.end(), [&](const Property& p) {
-        return p.name == std::string("n") + "xyz"[axis] && !p.is_list;
-      });
-      has_normals = has_normals && it != all.end();
-      normal_place[axis] = static_cast<std::size_t>(it - all.begin());
-    }
-    std::array<double, 3> position{}, normal{};
-    const auto take = [&](std::size_t k, const Property& property) {
-      const auto axis = std::find(place.begin(), place.end(), k) - place.begin();
-      const auto normal_axis = std::find(normal_place.begin(), normal_place.end(), k) - normal_place.begin();
-      if (axis < 3)
-        position[axis] = body.real(property, property.type);
-      else if (has_normals && normal_axis < 3)
-        normal[normal_axis] = body.real(property, property.type);
-      return axis < 3 || (has_normals && normal_axis < 3);
+    // Where the numbers of a vertex are among its properties: the position, then what else is read if it is there.
+    struct Part {
+      std::vector<std::size_t> place;
+      std::vector<double> value;
     };
+    std::vector<Part> parts(3);
+    for (const char* const axis : {"x", "y", "z"})
+      parts[0].place.push_back(property_named(element, {axis}, false));
+    parts[1].place = places_of(element, {"nx", "ny", "nz"});
+    for (const auto& names : {std::array{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}})
+      if (parts[2].place.empty()) parts[2].place = places_of(element, {names[0], names[1]});
+    for (Part& part : parts) part.value.resize(part.place.size());
+    const auto take = [&](std::size_t k, const Property& property) {
+      for (Part& part : parts) {
+        const auto at = std::find(part.place.begin(), part.place.end(), k);
+        if (at == part.place.end()) continue;
+        part.value[static_cast<std::size_t>(at - part.place.begin())] = body.real(property, property.type);
+        return true;
+      }
+      return false;
+    };
+    const auto vector = [](const Part& part) {
+      return std::array{part.value[0], part.value[1], part.value[2]};
+    };
+    if (!parts[2].place.empty()) uv_.name = "uv";
     read_all(element, body, take, [&] {
-      soup_.positions.push_back(position);
-      if (has_normals) soup_.normals.push_back(normal);
+      soup_.positions.push_back(vector(parts[0]));
+      if (!parts[1].place.empty()) soup_.normals.push_back(vector(parts[1]));
+      uv_.values.insert(uv_.values.end(), parts[2].value.begin(), parts[2].value.end());
       if (body.line() > 0) soup_.position_lines.push_back(body.line());
     });
   }
@@ -332,7 +186,15 @@ class PlyReader {
     if (element.properties[place].type.kind == Type::Kind::kFloat) {
       throw InputError("FILE_SYNTAX", name_, 0, "vertex indices are integers");
     }
+    // Values of corners take the place of those of vertices.
+    const std::vector<std::size_t> texture = places_of(element, {"texcoord"}, true);
+    if (!texture.empty()) uv_ = {.name = "uv", .by_value = true};
     const auto take = [&](std::size_t k, const Property& property) {
+      if (!texture.empty() && k == texture[0]) {
+        for (std::int64_t left = body.list_size(property); left > 0; --left)
+          uv_.values.push_back(body.real(property, property.type));
+        return true;
+      }
       if (k != place) return false;
       for (std::int64_t left = body.list_size(property); left > 0; --left)
         soup_.corners.push_back(body.integer(property, property.type));
@@ -362,6 +224,17 @@ class PlyReader {
     });
   }
 
+  // All of these properties; none if one is missing.
+  static std::vector<std::size_t> places_of(const Element& element, const std::vector<std::string>& names,
+                                            bool is_list = false) {
+    std::vector<std::size_t> places;
+    for (const std::string& name : names)
+      for (std::size_t k = 0; k < element.properties.size(); ++k)
+        if (element.properties[k].name == name && element.properties[k].is_list == is_list)
+          places.push_back(k);
+    return places.size() == names.size() ? places : std::vector<std::size_t>{};
+  }
+
   std::size_t property_named(const Element& element, const std::vector<std::string>& names,
                              bool is_list) const {
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -383,6 +256,7 @@ class PlyReader {
   Encoding encoding_ = Encoding::kAscii;
   std::vector<Element> elements_;
   PolygonSoup soup_;
+  PolygonSoup::SoupChannel uv_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <span>
 #include <utility>
@@ -88,24 +89,37 @@ std::vector<bool> beside_boundary(const ControlMesh& mesh) {
   return result;
 }
 
-// The texture coordinates of the file as the channel "uv". Where they are unusable, the mesh is not, and a note says why
-// they are left out.
+// Gives corners of one vertex whose values have the same numbers the same index.
+void join_equal_values(Channel& channel, const Faces& faces) {
+  const auto components = static_cast<std::size_t>(channel.components);
+  std::map<std::pair<std::int32_t, std::vector<double>>, std::int32_t> first;
+  for (std::size_t c = 0; c < channel.corners.size(); ++c) {
+    const auto value = channel.values.begin() +
+                       static_cast<std::ptrdiff_t>(static_cast<std::size_t>(channel.corners[c]) * components);
+    const std::vector<double> numbers(value, value + static_cast<std::ptrdiff_t>(components));
+    channel.corners[c] = first.try_emplace({faces.corners()[c], numbers}, channel.corners[c]).first->second;
+  }
+}
+
+// The channels of the file. Where one is unusable, the mesh is not, and a note says why it is left out.
 //   polygon_of   of each face
-void add_texture(const PolygonSoup& soup, const std::vector<std::int64_t>& polygon_of, Examination& result) {
-  if (std::all_of(soup.corner_texture.begin(), soup.corner_texture.end(), [](auto i) { return i == -1; }))
-    return;
-  Channel channel{"uv", std::max(1, soup.texture_components), soup.texture, {}, soup.texture_rule};
-  const auto values = static_cast<std::int64_t>(soup.texture.size()) / channel.components;
-  for (const std::int64_t polygon : polygon_of)
-    for (std::size_t c = polygon == 0 ? 0 : soup.polygon_end[polygon - 1]; c < soup.polygon_end[polygon];
-         ++c) {
-      const std::int64_t index = soup.corner_texture[c];
-      channel.corners.push_back(static_cast<std::int32_t>(index < -1 ? values : std::min(index, values)));
+void add_channels(const PolygonSoup& soup, const std::vector<std::int64_t>& polygon_of, Examination& result) {
+  for (const PolygonSoup::SoupChannel& given : soup.channels) {
+    Channel channel{given.name, given.components, given.values, {}, given.rule};
+    const auto values = static_cast<std::int64_t>(given.values.size()) / std::max(1, given.components);
+    for (const std::int64_t polygon : polygon_of)
+      for (std::size_t c = polygon == 0 ? 0 : soup.polygon_end[polygon - 1]; c < soup.polygon_end[polygon];
+           ++c) {
+        const std::int64_t index = c < given.corners.size() ? given.corners[c] : -1;
+        channel.corners.push_back(static_cast<std::int32_t>(index < -1 ? values : std::min(index, values)));
+      }
+    if (const std::string fault = fault_of(channel, result.mesh, soup.first); !fault.empty()) {
+      result.notes.push_back(fmt::format("the channel {} is left out: {}", given.name, fault));
+      continue;
     }
-  if (const std::string fault = fault_of(channel, result.mesh, soup.first); !fault.empty())
-    result.notes.push_back(fmt::format("the texture coordinates are left out: {}", fault));
-  else
+    if (given.by_value) join_equal_values(channel, result.mesh.faces);
     result.mesh.channels.push_back(std::move(channel));
+  }
 }
 
 }  // namespace
@@ -169,7 +183,7 @@ Examination examine(const PolygonSoup& soup, const ReadOptions& options) {
     polygon_of.push_back(number);
   }
   result.notes = soup.notes;
-  add_texture(soup, polygon_of, result);
+  add_channels(soup, polygon_of, result);
   if (!keep) {
     Triangulated triangles = triangulate(mesh, options.polygons);
     mesh.faces = std::move(triangles.faces);

@@ -27,11 +27,17 @@ struct PolygonSoup {
   // OBJ: for each corner the index of its normal, -1 for none. Empty: normals[i] is that of position i.
   std::vector<std::int64_t> corner_normals;
 
-  // Texture coordinates, `texture_components` numbers each, and for each corner the index of its own, -1 for none; unchecked.
-  std::vector<double> texture;
-  std::vector<std::int64_t> corner_texture;
-  int texture_components = 0;
-  std::optional<ChannelRule> texture_rule;
+  // Face-varying values, and for each corner the index of its own, -1 for none; unchecked. Where `by_value`, two corners at
+  // one vertex have the same value if it has the same numbers, whatever their indices are.
+  struct SoupChannel {
+    std::string name;
+    int components = 2;
+    std::vector<double> values = {};
+    std::vector<std::int64_t> corners = {};
+    std::optional<ChannelRule> rule = {};
+    bool by_value = false;
+  };
+  std::vector<SoupChannel> channels;
 
   // Sharp edges, and sharp vertices (b is -1); boundary, creasing and rule for triangles are in `choices`.
   struct SharpTag {

@@ -1,127 +1,30 @@
 // SPDX-License-Identifier: MIT
 // USD as text: the points, faces, creases, corners and holes of its Mesh prims, and what they say of scheme, boundary and
 // triangles; all meshes of a file are one. What USD means where a mesh says nothing is taken: Catmull-Clark's scheme, and
-// boundary vertices of one face held. Transformations are not applied; what moves no point is read over; anything else is
+// boundary vertices of one face held. A primvar of numbers by corner, or by vertex, is a channel. Transformations are not applied; what moves no point is read over; anything else is
 // named in a note. Binary USD, animated points and what other files hold are refused.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
+#include <numeric>
 #include <utility>
 
-#include "data/error.h"
 #include "data/io/polygon_soup.h"
-#include "data/io/text_scanner.h"
+#include "data/io/usda_words.h"
 
 namespace limitcheck::data::io {
 namespace {
 
 constexpr int kDeepest = 128;  // prims and brackets within each other
 
-struct UsdToken {
-  enum class Kind { kEnd, kWord, kText, kMark } kind = Kind::kEnd;
-  std::string_view text;  // of a text without its quotes
-  std::int64_t line = 0;
-  bool is(std::string_view mark) const { return kind == Kind::kMark && text == mark; }
-};
-
-// Words are names, numbers and paths; marks are brackets, '=', ',' and ';'.
-class UsdWords {
- public:
-  UsdWords(std::string_view content, std::string name) : content_(content), name_(std::move(name)) {
-    if (!content_.starts_with("#usda "))
-      fail("FILE_UNSUPPORTED", "it does not begin with #usda: only USD as text is read");
-    pass();
-  }
-
-  const UsdToken& next() const { return next_; }
-  UsdToken take() {
-    const UsdToken taken = next_;
-    pass();
-    return taken;
-  }
-  bool take_if(std::string_view mark) {
-    const bool there = next_.is(mark);
-    if (there) pass();
-    return there;
-  }
-  void need(std::string_view mark) {
-    if (!take_if(mark)) syntax_error(fmt::format("'{}' is missing before {}", mark, said(next_)));
-  }
-  static std::string said(const UsdToken& token) {
-    return token.kind == UsdToken::Kind::kEnd ? "the end" : io::quoted(token.text);
-  }
-  [[noreturn]] void fail(const char* code, const std::string& why, std::int64_t line = -1) const {
-    throw InputError(code, name_, line < 0 ? line_ : line, why);
-  }
-  [[noreturn]] void syntax_error(const std::string& why) const { fail("FILE_SYNTAX", why, next_.line); }
-
- private:
-  void pass() {
-    skip_blanks();
-    next_ = {UsdToken::Kind::kEnd, {}, line_};
-    if (at_ == content_.size()) return;
-    const char c = content_[at_];
-    if (c == '"' || c == '\'') return pass_text(c);
-    if (c == '@' || c == '<') return pass_text(c == '<' ? '>' : c);
-    std::size_t end = at_ + 1;
-    next_.kind = UsdToken::Kind::kMark;
-    if (is_of_a_word(c)) {
-      next_.kind = UsdToken::Kind::kWord;
-      while (end < content_.size() && is_of_a_word(content_[end])) ++end;
-      if (content_.substr(end, 2) == "[]") end += 2;  // of a type
-    }
-    next_.text = content_.substr(at_, end - at_);
-    at_ = end;
-  }
-  void skip_blanks() {
-    while (at_ < content_.size()) {
-      const char c = content_[at_];
-      if (c == '#')
-        at_ = std::min(content_.find('\n', at_), content_.size());
-      else if (std::isspace(static_cast<unsigned char>(c)) != 0)
-        line_ += content_[at_++] == '\n';
-      else
-        break;
-    }
-  }
-  // Between quotes, or three quotes each, in which a backslash hides one.
-  void pass_text(char quote) {
-    const std::string three(3, quote);
-    const std::string_view end = content_.substr(at_).starts_with(three)
-                                     ? std::string_view(three)
-                                     : std::string_view(three).substr(0, 1);
-    const std::size_t begin = at_ + end.size();
-    std::size_t k = begin;
-    for (;; ++k) {
-      if (k >= content_.size()) fail("FILE_TRUNCATED", "the file ends within a text", next_.line);
-      if (content_.substr(k, end.size()) == end) break;
-      if (content_[k] == '\\' && k + 1 < content_.size()) ++k;
-      line_ += content_[k] == '\n';
-    }
-    next_.kind = UsdToken::Kind::kText;
-    next_.text = content_.substr(begin, k - begin);
-    at_ = std::min(k + end.size(), content_.size());
-  }
-  static bool is_of_a_word(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("_:.+-").find(c) < 5 ||
-           static_cast<unsigned char>(c) >= 0x80;
-  }
-
-  std::string_view content_;
-  std::string name_;
-  std::size_t at_ = 0;
-  std::int64_t line_ = 1;
-  UsdToken next_;
-};
-
 // A property of a mesh: its numbers, tuples and lists flat, or its word.
 struct UsdValue {
   std::vector<double> numbers;
   std::string word;
   std::int64_t line = 0;
+  int components = 1;  // of an element, as the type says
 };
 
 constexpr std::string_view kRead[] = {"points",
@@ -136,10 +39,10 @@ constexpr std::string_view kRead[] = {"points",
                                       "creaseSharpnesses",
                                       "cornerIndices",
                                       "cornerSharpnesses",
-                                      "holeIndices"};
-constexpr std::string_view kMovesNoPoint[] = {
-    "normals", "extent",     "doubleSided",   "visibility",
-    "purpose", "velocities", "accelerations", "faceVaryingLinearInterpolation"};
+                                      "holeIndices",
+                                      "faceVaryingLinearInterpolation"};
+constexpr std::string_view kMovesNoPoint[] = {"normals", "extent",     "doubleSided",  "visibility",
+                                              "purpose", "velocities", "accelerations"};
 
 template <class List>
 bool among(const List& list, std::string_view word) {
@@ -198,7 +101,7 @@ class UsdReader {
   // custom uniform TYPE name = value (metadata), and less: what stands on the line of its first word.
   void read_property(bool of_mesh, std::map<std::string_view, UsdValue>& values) {
     const std::int64_t line = words_.next().line;
-    std::string_view name;
+    std::string_view name, type;
     bool is_relation = false, is_variant = false;
     while (!words_.next().is("=") && words_.next().line == line && !words_.next().is("}") &&
            words_.next().kind != UsdToken::Kind::kEnd) {
@@ -210,12 +113,15 @@ class UsdReader {
       }
       is_relation = is_relation || token.text == "rel" || token.text == "nameChildren";
       is_variant = is_variant || token.text == "variantSet";
-      name = token.text;
+      type = std::exchange(name, token.text);
     }
     if (is_variant) note(line, fmt::format("the variants of {} are read over", io::quoted(name)));
     if (name.starts_with("xformOp:"))
       note(line, fmt::format("{} is not applied: points are as their mesh has them", io::quoted(name)));
-    const bool is_read = of_mesh && among(kRead, name);
+    const bool is_primvar = of_mesh && name.starts_with("primvars:") && type.ends_with("[]") &&
+                            !type.starts_with("string") && !type.starts_with("token") &&
+                            !type.starts_with("bool");
+    const bool is_read = of_mesh && (among(kRead, name) || is_primvar);
     if (of_mesh && name.starts_with("points."))
       words_.fail("FILE_UNSUPPORTED", "the points move with time", line);
     if (of_mesh && !is_read && !is_relation && !is_variant && !among(kMovesNoPoint, name) &&
@@ -224,6 +130,8 @@ class UsdReader {
     if (words_.take_if("=")) {
       if (is_read) {
         UsdValue value{{}, "", line};
+        if (const auto digit = type.find_first_of("234"); digit != type.npos)
+          value.components = type[digit] - '0';
         read_value(value, 0);
         if (!values.emplace(name, std::move(value)).second)
           words_.fail("FILE_SYNTAX", fmt::format("{} is there twice", name), line);
@@ -325,6 +233,7 @@ class UsdReader {
       at += size;
       soup_.close_polygon(value("faceVertexCounts").line);
     }
+    add_channels(values, whole, first_vertex, corners.size(), left);
     if (at != corners.size())
       refuse("faceVertexCounts", fmt::format("its faces have {} corners, there are {}", at, corners.size()));
     const auto vertices_of = [&](const char* name) {
@@ -364,6 +273,58 @@ class UsdReader {
       refuse("cornerIndices", fmt::format("{} corners and {} sharpnesses", held.size(), how.size()));
     for (std::size_t k = 0; k < held.size(); ++k)
       soup_.sharp.push_back({held[k], -1, how[k], value("cornerIndices").line});
+  }
+
+  // The primvars of a mesh that has so many corners, the last of the soup.
+  template <class Whole>
+  void add_channels(const std::map<std::string_view, UsdValue>& values, const Whole& whole,
+                    std::int64_t first_vertex, std::size_t corners, bool left_handed) {
+    constexpr std::string_view kRules[] = {"none",         "cornersOnly", "cornersPlus1",
+                                           "cornersPlus2", "boundaries",  "all"};
+    const auto said = values.find("faceVaryingLinearInterpolation");
+    const auto rule = said == values.end()
+                          ? std::end(kRules)
+                          : std::find(std::begin(kRules), std::end(kRules), said->second.word);
+    const std::size_t begin = soup_.corners.size() - corners;
+    for (const auto& [name, value] : values) {
+      if (!name.starts_with("primvars:") || name.ends_with(":indices")) continue;
+      const std::string indices = std::string(name) + ":indices";
+      const bool is_indexed = values.contains(indices);
+      std::vector<std::int64_t> list = is_indexed ? whole(indices) : std::vector<std::int64_t>();
+      const std::size_t count = value.numbers.size() / static_cast<std::size_t>(value.components);
+      if (!is_indexed) {
+        list.resize(count);
+        std::iota(list.begin(), list.end(), std::int64_t{0});
+      }
+      const bool by_vertex = list.size() == soup_.positions.size() - static_cast<std::size_t>(first_vertex);
+      if (list.size() != corners && !by_vertex) continue;  // constant, or one for each face
+      const std::string channel(name.substr(std::string_view("primvars:").size()));
+      auto to = std::find_if(soup_.channels.begin(), soup_.channels.end(),
+                             [&](const auto& c) { return c.name == channel; });
+      if (to == soup_.channels.end()) {
+        soup_.channels.push_back({.name = channel, .components = value.components, .by_value = !is_indexed});
+        to = soup_.channels.end() - 1;
+      }
+      if (by_vertex)
+        to->rule = ChannelRule::kNone;  // interpolated as positions are
+      else if (rule != std::end(kRules))
+        to->rule = static_cast<ChannelRule>(rule - std::begin(kRules));
+      const auto offset = static_cast<std::int64_t>(to->values.size()) / to->components;
+      to->values.insert(to->values.end(), value.numbers.begin(), value.numbers.end());
+      to->corners.resize(begin, -1);
+      std::size_t at = 0;
+      for (auto face = soup_.polygon_end.begin(); face != soup_.polygon_end.end(); ++face) {
+        if (*face <= begin) continue;
+        const std::size_t size = *face - begin - at;
+        for (std::size_t k = 0; k < size; ++k) {
+          const std::size_t from = at + (left_handed && k > 0 ? size - k : k);
+          const auto place =
+              by_vertex ? static_cast<std::size_t>(soup_.corners[begin + at + k] - first_vertex) : from;
+          to->corners.push_back(list[place] < 0 ? -2 : list[place] + offset);
+        }
+        at += size;
+      }
+    }
   }
 
   // Scheme, boundary and rule for triangles, which all meshes of a file must agree on.

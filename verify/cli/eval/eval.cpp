@@ -57,13 +57,12 @@ int run(const EvalRequest& request) {
     evaluated.points = {
         certified_evaluator(request, opened).evaluate(face, at.corner.value_or(0), u, v, request.digits)};
   } else {
-    if (request.weights != reference::Weights::kLoop)
-      throw data::ArgumentError("--channel is evaluated with Loop's weights, not with Warren's");
-    const data::Channel& channel = data::channel_of(opened.mesh, request.channel);
-    evaluated.components = static_cast<std::size_t>(channel.components);
-    evaluated.rule = request.channel_rule.value_or(channel.rule.value_or(data::kUsualChannelRule));
-    evaluated.points = reference::ChannelEvaluator(opened.mesh, channel, evaluated.rule, opened.chosen.scheme)
-                           .evaluate(face, at.corner.value_or(0), u, v, request.digits);
+    const ChosenChannel chosen = channel_of(request, opened);
+    evaluated.components = static_cast<std::size_t>(chosen.channel.components);
+    evaluated.rule = chosen.rule;
+    evaluated.points =
+        reference::ChannelEvaluator(opened.mesh, chosen.channel, chosen.rule, opened.chosen.scheme)
+            .evaluate(face, at.corner.value_or(0), u, v, request.digits);
   }
   request.json ? print_point_as_json(evaluated) : print_point(evaluated);
   return kHeld;
@@ -105,6 +104,13 @@ void check_face(const EvalRequest& request, const OpenedMesh& opened, const Face
   if (at.corner && (*at.corner < 0 || *at.corner >= corners))
     throw data::ArgumentError(fmt::format("{}: face {} has corners 0 to {}, not {}", request.mesh, at.face,
                                           corners - 1, *at.corner));
+}
+
+ChosenChannel channel_of(const EvalRequest& request, const OpenedMesh& opened) {
+  if (request.weights != reference::Weights::kLoop)
+    throw data::ArgumentError("--channel is evaluated with Loop's weights, not with Warren's");
+  const data::Channel& channel = data::channel_of(opened.mesh, request.channel);
+  return {channel, request.channel_rule.value_or(channel.rule.value_or(data::kUsualChannelRule))};
 }
 
 CertifiedEvaluator certified_evaluator(const EvalRequest& request, const OpenedMesh& opened) {
@@ -175,7 +181,6 @@ void add_eval(CLI::App& app, int& exit_code) {
           *command, "--channel", request->channel, "NAME",
           "Evaluate a face-varying channel of the mesh in place of its positions: uv, the texture "
           "coordinates of an OBJ file or of a mesh by name. Face and parameters say on which side of a seam")
-          ->excludes(points)
           ->excludes(subject);
   Words<std::optional<data::ChannelRule>> rules;
   for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k)

@@ -44,6 +44,14 @@ void check_face(const EvalRequest& request, const OpenedMesh& opened, const Face
 /// Throws data::ArgumentError: weights of the other scheme.
 reference::CertifiedEvaluator certified_evaluator(const EvalRequest& request, const OpenedMesh& opened);
 
+/// The channel that is asked for, and its rule: as asked, else as its file says, else the usual one. Throws
+/// data::ArgumentError: there is none of that name, or other weights than Loop's are asked for.
+struct ChosenChannel {
+  const data::Channel& channel;
+  data::ChannelRule rule;
+};
+ChosenChannel channel_of(const EvalRequest& request, const OpenedMesh& opened);
+
 /// What was evaluated: positions, or the values of a channel.
 struct EvaluatedPoint {
   const EvalRequest& request;

@@ -19,39 +19,46 @@
 #include <vector>
 
 #include "data/error.h"
+#include "reference/surface/channel.h"
 #include "reference/surface/surface.h"
 #include "verify/cli/eval/eval.h"
 
 namespace limitcheck::cli {
 namespace {
 
-using reference::Enclosure, reference::Enclosure3, reference::Parameter, reference::Vec3;
+using reference::CertifiedPoint, reference::Enclosure3, reference::Parameter, reference::Vec3;
 
 constexpr std::size_t kBlock = std::size_t{4} << 20;  // of the input, read at a time
 constexpr std::size_t kPart = std::size_t{16} << 10;  // of a block, one after the other
 
 struct Column {
   const char* name;
-  bool vector;
+  std::size_t width = 1;
 };
-std::vector<Column> columns_of(const EvalRequest& request) {
-  std::vector<Column> columns{{"position", true}};
-  if (request.derivatives > 0) columns.insert(columns.end(), {{"normal", true}, {"d1", true}, {"d2", true}});
-  if (request.derivatives > 1)
-    columns.insert(columns.end(), {{"d11", true},
-                                   {"d12", true},
-                                   {"d22", true},
-                                   {"gaussian_curvature", false},
-                                   {"mean_curvature", false}});
-  if (request.certified) columns.push_back({"radius", false});
+std::vector<Column> columns_of(const EvalRequest& request, std::size_t components) {
+  const bool channel = !request.channel.empty();
+  std::vector<Column> columns{{channel ? "value" : "position", components}};
+  if (request.derivatives > 0) {
+    if (!channel) columns.push_back({"normal", components});
+    columns.insert(columns.end(), {{"d1", components}, {"d2", components}});
+  }
+  if (request.derivatives > 1) {
+    columns.insert(columns.end(), {{"d11", components}, {"d12", components}, {"d22", components}});
+    if (!channel) columns.insert(columns.end(), {{"gaussian_curvature"}, {"mean_curvature"}});
+  }
+  if (request.certified) columns.push_back({"radius"});
   return columns;
 }
-std::string header_of(const std::vector<Column>& columns) {
+// Coordinates are called x, y, z; components of a channel have numbers.
+std::string header_of(const std::vector<Column>& columns, bool channel) {
   std::string line = "face,u,v";
-  for (const auto& [name, vector] : columns)
-    line += !vector                                ? fmt::format(",{}", name)
-            : std::string_view(name) == "position" ? ",x,y,z"
-                                                   : fmt::format(",{0}_x,{0}_y,{0}_z", name);
+  for (const auto& [name, width] : columns)
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::string component = channel ? std::to_string(k) : std::string(1, "xyz"[k]);
+      line += name == std::string_view("position") ? "," + component
+              : width > 1 || channel               ? fmt::format(",{}_{}", name, component)
+                                                   : fmt::format(",{}", name);
+    }
   return line + "\n";
 }
 
@@ -115,26 +122,36 @@ Doubles doubles(const EvalRequest& request, const reference::Surface& surface, c
   return values;
 }
 
-// Decimals; empty where nothing exists.
+// Decimals; empty where nothing exists. Of a channel of more than three components there are two points.
 using Decimals = std::vector<std::string>;
-Decimals decimals(const EvalRequest& request, const reference::CertifiedEvaluator& evaluator,
-                  const Given& g) {
-  const auto p = evaluator.evaluate(static_cast<int>(g.at.face), g.at.corner.value_or(0),
-                                    Parameter::parse(g.u), Parameter::parse(g.v), request.digits);
+Decimals decimals(const EvalRequest& request, const std::vector<CertifiedPoint>& points,
+                  std::size_t components) {
+  const CertifiedPoint& p = points[0];
+  const bool channel = !request.channel.empty();
   Decimals values;
-  const auto put = [&](const Enclosure3& v, bool exists = true) {
-    for (const Enclosure& x : v) values.push_back(exists ? x.value : "");
+  const auto put = [&](Enclosure3 CertifiedPoint::*vector, bool exists = true) {
+    for (std::size_t k = 0; k < components; ++k)
+      values.push_back(exists ? (points[k / 3].*vector)[k % 3].value : "");
   };
-  const auto put_maybe = [&](const std::optional<Enclosure3>& v) {
-    put(v.value_or(Enclosure3{}), v.has_value());
+  const auto put_maybe = [&](std::optional<Enclosure3> CertifiedPoint::*vector) {
+    for (std::size_t k = 0; k < components; ++k)
+      values.push_back(p.*vector ? (*(points[k / 3].*vector))[k % 3].value : "");
   };
-  put(p.position);
-  if (request.derivatives > 0) put(p.normal), put(p.d1, p.first_exist), put(p.d2, p.first_exist);
-  if (request.derivatives > 1) {
-    put_maybe(p.d11), put_maybe(p.d12), put_maybe(p.d22);
-    for (const auto& k : {p.gaussian_curvature, p.mean_curvature}) values.push_back(k ? k->value : "");
+  put(&CertifiedPoint::position);
+  if (request.derivatives > 0) {
+    if (!channel) put(&CertifiedPoint::normal);
+    put(&CertifiedPoint::d1, p.first_exist), put(&CertifiedPoint::d2, p.first_exist);
   }
-  values.push_back(p.radius.to_string());
+  if (request.derivatives > 1) {
+    put_maybe(&CertifiedPoint::d11), put_maybe(&CertifiedPoint::d12), put_maybe(&CertifiedPoint::d22);
+    if (!channel)
+      for (const auto& k : {p.gaussian_curvature, p.mean_curvature}) values.push_back(k ? k->value : "");
+  }
+  if (request.certified) {
+    reference::Radius largest;
+    for (const CertifiedPoint& point : points) largest = std::max(largest, point.radius);
+    values.push_back(largest.to_string());
+  }
   return values;
 }
 
@@ -166,9 +183,11 @@ void put_line(Text& to, const std::vector<Column>& columns, const Given& g, cons
   fmt::format_to(std::back_inserter(to), "{{\"face\": {}, \"corner\": {}, \"u\": \"{}\", \"v\": \"{}\"",
                  g.at.face, g.at.corner ? fmt::format("{}", *g.at.corner) : "null", g.u, g.v);
   std::size_t next = 0;
-  for (const auto& [name, vector] : columns) {
+  for (const auto& [name, width] : columns) {
+    // Curvatures and the radius are numbers, all else is a vector, of one component, too.
+    const bool vector = width > 1 || std::string_view(name).find_first_of("_r") == std::string_view::npos;
     fmt::format_to(std::back_inserter(to), ", \"{}\": {}", name, vector ? "[" : "");
-    for (int k = 0; k < (vector ? 3 : 1); ++k) {
+    for (std::size_t k = 0; k < width; ++k) {
       if (k > 0) append(to, ", ");
       put_value(to, values[next++], true);
     }
@@ -228,24 +247,36 @@ void evaluate_points(const EvalRequest& request, const OpenedMesh& opened) {
   const std::string name = is_file ? request.points : "standard input";
   if (!in) throw data::InputError("FILE_NOT_READABLE", name, 0, "cannot be read");
 
-  const std::vector<Column> columns = columns_of(request);
+  std::size_t components = 3;
+  std::unique_ptr<reference::ChannelEvaluator> channel;
   std::unique_ptr<reference::CertifiedEvaluator> certified;
   std::unique_ptr<reference::Surface> surface;
-  if (request.certified)
+  if (!request.channel.empty()) {
+    const ChosenChannel chosen = channel_of(request, opened);
+    components = static_cast<std::size_t>(chosen.channel.components);
+    channel = std::make_unique<reference::ChannelEvaluator>(opened.mesh, chosen.channel, chosen.rule,
+                                                            opened.chosen.scheme);
+  } else if (request.certified) {
     certified.reset(
         new reference::CertifiedEvaluator(certified_evaluator(request, opened)));  // it cannot be moved
-  else
+  } else {
     surface = std::make_unique<reference::Surface>(opened.mesh, opened.chosen.scheme, request.weights);
+  }
+  const std::vector<Column> columns = columns_of(request, components);
   const auto answer = [&](std::string_view line, Text& to) {
     const Given g = given(line);
     check_face(request, opened, g.at);
-    if (certified)
-      put_line(to, columns, g, decimals(request, *certified, g), request.json);
-    else
-      put_line(to, columns, g, doubles(request, *surface, g), request.json);
+    if (surface) return put_line(to, columns, g, doubles(request, *surface, g), request.json);
+    const auto face = static_cast<int>(g.at.face);
+    const int corner = g.at.corner.value_or(0);
+    const Parameter u = Parameter::parse(g.u), v = Parameter::parse(g.v);
+    const std::vector<CertifiedPoint> points =
+        channel ? channel->evaluate(face, corner, u, v, request.digits)
+                : std::vector{certified->evaluate(face, corner, u, v, request.digits)};
+    put_line(to, columns, g, decimals(request, points, components), request.json);
   };
 
-  if (!request.json) say_text(stdout, header_of(columns));
+  if (!request.json) say_text(stdout, header_of(columns, channel != nullptr));
   std::string block, left;
   std::int64_t line = 1;
   do {

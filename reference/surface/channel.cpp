@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "reference/channel/channel_step.h"
 #include "reference/point/parameter_exact.h"
 #include "reference/surface/certify.h"
+#include "reference/surface/surface.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -91,24 +93,27 @@ Settled<N> settled_by_loop_steps(const ChannelMesh<N>& mesh, std::size_t face, c
   return result;
 }
 
-// Linear or bilinear: the surface of a face by itself whose corners are held; of a face that is no quad, of the quad at a
-// corner.
+// The corners between which a channel of the rule `all` is linear or bilinear: those of a triangle of Loop's scheme, of a
+// quad, or of the quad at a corner of another face.
+template <class N>
+std::vector<Vec3<N>> linear_corners(const std::vector<Vec3<N>>& values, bool loop, int corner) {
+  const std::size_t n = values.size(), k = static_cast<std::size_t>(corner);
+  if (loop || n == 4) return values;
+  return {values[k], boundary_edge_point(values[k], values[(k + 1) % n]),
+          catmull_clark::face_point<N>(values), boundary_edge_point(values[k], values[(k + n - 1) % n])};
+}
+
+// That is the surface of a face by itself whose corners are held.
 template <class N>
 Settled<N> linear(const ChannelMesh<N>& mesh, bool loop, std::size_t face, int corner, const Rational& u,
                   const Rational& v) {
   const auto first =
       mesh.values.begin() + static_cast<std::ptrdiff_t>(mesh.topology.faces().first_corner(face));
-  const std::size_t n = mesh.topology.faces()[face].size();
-  std::vector<Vec3<N>> values(first, first + static_cast<std::ptrdiff_t>(n));
-  if (!loop && n != 4) {
-    const auto k = static_cast<std::size_t>(corner);
-    const Vec3<N> c = values[k];
-    values = {c, boundary_edge_point(c, values[(k + 1) % n]), catmull_clark::face_point<N>(values),
-              boundary_edge_point(c, values[(k + n - 1) % n])};
-  }
-  Settled<N> result{{}, values, 0, u, v, 1};
+  const std::vector<Vec3<N>> values(first,
+                                    first + static_cast<std::ptrdiff_t>(mesh.topology.faces()[face].size()));
+  Settled<N> result{{}, linear_corners(values, loop, corner), 0, u, v, 1};
   result.cut.faces = loop ? data::Faces{{0, 1, 2}} : data::Faces{{0, 1, 2, 3}};
-  for (std::int32_t vertex = 0; vertex < static_cast<std::int32_t>(values.size()); ++vertex)
+  for (std::int32_t vertex = 0; vertex < static_cast<std::int32_t>(result.values.size()); ++vertex)
     result.cut.tags.vertices.push_back({vertex, Parameter(10.)});
   return result;
 }
@@ -194,6 +199,57 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
         data_->scheme, Weights::kLoop, digits));
   }
   return result;
+}
+
+struct ChannelSurface::Data {
+  data::ControlMesh cut;           // its positions are the values
+  std::optional<Surface> surface;  // of the cut; none by the rule `all`
+  bool loop;
+};
+
+ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channel& channel,
+                               data::ChannelRule rule, data::Scheme scheme) {
+  if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
+    throw data::ArgumentError("channel '" + channel.name + "': " + fault);
+  const ChannelTopology topology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners,
+                                 rule);
+  const ChannelCut cut = cut_and_hold(topology, mesh.sharpness.triangles);
+  if (!cut.is_exact) throw data::ArgumentError("by Chaikin's creasing a semi-sharp edge ends on a seam");
+  auto data = std::make_unique<Data>();
+  data->loop = scheme == data::Scheme::kLoop;
+  data->cut.faces = cut.faces;
+  for (const std::size_t c : cut.corner_of) {
+    std::array<double, 3>& value = data->cut.positions.emplace_back();
+    for (int k = 0; k < std::min(channel.components, 3); ++k)
+      value[static_cast<std::size_t>(k)] = channel.at(c, k);
+  }
+  data::Sharpness& tags = data->cut.sharpness;
+  for (const auto& e : cut.tags.edges)
+    tags.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
+  for (const auto& v : cut.tags.vertices)
+    tags.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
+  tags.creasing = cut.tags.creasing, tags.triangles = cut.tags.triangles;
+  if (rule != data::ChannelRule::kAll) data->surface.emplace(data->cut, scheme);
+  data_ = std::move(data);
+}
+
+ChannelSurface::~ChannelSurface() = default;
+
+SurfacePoint<double> ChannelSurface::evaluate(int face, int corner, double u, double v) const {
+  if (data_->surface) return data_->surface->evaluate(face, corner, u, v, Derivatives::kFirst);
+  std::vector<Vec3<double>> values;
+  for (const std::int32_t vertex : data_->cut.faces[static_cast<std::size_t>(face)]) {
+    const auto& p = data_->cut.positions[static_cast<std::size_t>(vertex)];
+    values.push_back({p[0], p[1], p[2]});
+  }
+  const std::vector<Vec3<double>> c = linear_corners(values, data_->loop, corner);
+  const Vec3<double> along = c[1] - c[0], across = c.back() - c[0];
+  const Vec3<double> twist = data_->loop ? Vec3<double>{} : c[2] - c[1] - across;
+  SurfacePoint<double> point{};
+  point.position = c[0] + along * u + across * v + twist * (u * v);
+  point.d1 = along + twist * v, point.d2 = across + twist * u;
+  point.first_exist = true;
+  return point;
 }
 
 }  // namespace limitcheck::reference

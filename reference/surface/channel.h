@@ -8,6 +8,7 @@
 #include "data/channel.h"
 #include "data/control_mesh.h"
 #include "data/scheme.h"
+#include "reference/point/surface_point.h"
 #include "reference/surface/certified.h"
 
 namespace limitcheck::reference {
@@ -32,6 +33,23 @@ class ChannelEvaluator {
   ///             those beyond the last component are 0. Normals and curvatures say nothing
   std::vector<CertifiedPoint> evaluate(int face, int corner, const Parameter& u, const Parameter& v,
                                        int digits) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+/// The same in double: of the cut, whose errors are those of Surface; by the rule `all` a few roundings.
+class ChannelSurface {
+ public:
+  /// Throws data::ArgumentError as ChannelEvaluator, and where no cut is exact (ChannelCut): by Chaikin's creasing where a
+  /// semi-sharp edge ends on a seam.
+  ChannelSurface(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule,
+                 data::Scheme scheme);
+  ~ChannelSurface();
+
+  /// The first three components and their derivatives by the parameters.
+  SurfacePoint<double> evaluate(int face, int corner, double u, double v) const;
 
  private:
   struct Data;

@@ -111,6 +111,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   const auto by_feet = [&] {
     std::vector<Result> rows = check_file_distance(e);
     append(rows, check_file_normals(e));
+    append(rows, check_file_channel(e));
     step("coverage", 0, 1);
     append(rows, check_file_cover(e));
     append(rows, check_file_triangles(e));

@@ -165,6 +165,14 @@ const std::vector<RowKind>& row_kinds() {
        "1e-3: the vector is then no farther from the exact one than a direction that is off by the bound of "
        "file-normals.",
        "shading scales with the length; four decimals round to 9e-5"},
+      {"file-channel", "channels", kOther,
+       "Only where the control mesh has texture coordinates: those of the file against the exact channel, at "
+       "each corner of a "
+       "triangle on the side of the seam where the triangle lies. Rule: as the control mesh says, else "
+       "corners-plus1.",
+       "--tolerance, in diagonals of the channel, and what the channel changes within the tolerance of a "
+       "position.",
+       kFile},
       {"file-orientation", "tiling", kTiling,
        "Triangles face outwards, and run counter-clockwise on their control face.", kNone, kFile},
       {"file-coverage", "tiling", kTiling,

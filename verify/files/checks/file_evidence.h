@@ -108,6 +108,7 @@ std::vector<Result> check_file_finite(const FileEvidence& e);
 std::vector<Result> check_file_distance(const FileEvidence& e);
 std::vector<Result> check_file_positions(const FileEvidence& e);  // at the provenance claimed
 std::vector<Result> check_file_normals(const FileEvidence& e);    // file-normals, file-normal-length
+std::vector<Result> check_file_channel(const FileEvidence& e);    // none if the control mesh has no channel
 std::vector<Result> check_file_unused(const FileEvidence& e);
 std::vector<Result> check_file_triangles(const FileEvidence& e);  // file-degenerate
 std::vector<Result> check_file_cover(const FileEvidence& e);      // file-orientation, file-coverage

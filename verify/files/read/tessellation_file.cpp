@@ -28,6 +28,18 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
     const std::int64_t normal = soup.corner_normals[at];
     return normal >= 0 && normal < static_cast<std::int64_t>(soup.normals.size()) ? normal : -1;
   };
+  const auto channel = std::find_if(soup.channels.begin(), soup.channels.end(),
+                                    [](const auto& c) { return c.components == 2; });
+  const bool has_texture = channel != soup.channels.end() && channel->corners.size() == soup.corners.size();
+  if (has_texture)
+    for (std::size_t k = 0; k + 1 < channel->values.size(); k += 2)
+      t.texture.push_back({channel->values[k], channel->values[k + 1]});
+  const auto texture_at = [&](std::size_t at) {
+    const std::int64_t index = channel->corners[at];
+    return index >= 0 && index < static_cast<std::int64_t>(t.texture.size())
+               ? static_cast<std::int32_t>(index)
+               : -1;
+  };
   t.used.assign(t.positions.size(), false);
   std::size_t begin = 0;
   for (std::size_t i = 0; i < soup.polygon_end.size(); begin = soup.polygon_end[i++]) {
@@ -50,6 +62,8 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
       t.triangles.push_back({static_cast<std::int32_t>(corner[0]), static_cast<std::int32_t>(corner[k]),
                              static_cast<std::int32_t>(corner[k + 1])});
       t.polygon.push_back(static_cast<std::int64_t>(i));
+      if (has_texture)
+        t.corner_texture.push_back({texture_at(begin), texture_at(begin + k), texture_at(begin + k + 1)});
       if (!soup.corner_normals.empty())
         given.push_back({normal_at(begin), normal_at(begin + k), normal_at(begin + k + 1)});
     }

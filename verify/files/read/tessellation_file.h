@@ -26,6 +26,10 @@ struct FileTessellation {
   std::vector<std::array<std::int32_t, 3>> triangles;  // larger polygons as fans from their first corner
   /// Of the corners of each triangle, which of `normals` they have, -1: none. Empty if that is the vertex's.
   std::vector<std::array<std::int32_t, 3>> corner_normals;
+  /// Texture coordinates, of two components, and of the corners of each triangle which they have, -1: none. Empty: the file
+  /// has none.
+  std::vector<std::array<double, 2>> texture;
+  std::vector<std::array<std::int32_t, 3>> corner_texture;
   std::vector<std::int64_t> polygon;                 // of each triangle: its number in the file, from 0
   std::vector<bool> used;                            // vertices that a triangle names; all, if there are none
   std::int64_t polygons = 0, quads = 0, larger = 0;  // read; of four corners; of more

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Whether the texture coordinates of a file are those of the control mesh's channel.
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "data/bounding_box.h"
+#include "data/error.h"
+#include "data/io/gltf.h"
+#include "reference/surface/channel.h"
+#include "verify/files/checks/file_evidence.h"
+#include "verify/row/statistics.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using data::ChannelRule;
+using Uv = std::array<double, 2>;
+
+// A corner of a triangle that has texture coordinates, and where it lies.
+struct TexturedCorner {
+  std::int32_t vertex;
+  Uv got;
+  LimitSurface::ControlPoint at;
+  double slack;  // in the parameters, by what its position may be off
+};
+
+// How far a point may be from where its vertex was meant to be, in the parameters: by the direction in which the point
+// moves slowest. At most a quarter of a face.
+double slack_of(const FileEvidence& e, const FacePoint& at) {
+  const auto p = e.surface.surface().evaluate(at, reference::Derivatives::kFirst);
+  const Vector d1 = vector_of(p.d1), d2 = vector_of(p.d2);
+  const double a = dot(d1, d1), b = dot(d1, d2), c = dot(d2, d2);
+  const double slowest = std::sqrt(std::max(0., (a + c) / 2 - std::hypot((a - c) / 2, b)));
+  const double radius = e.tolerance * e.surface.diagonal();
+  return p.first_exist && slowest > 4 * radius ? radius / slowest : .25;
+}
+
+std::vector<TexturedCorner> textured_corners(const FileEvidence& e, bool flipped, std::int64_t& without) {
+  const FileTessellation& t = e.tessellation;
+  std::vector<TexturedCorner> corners;
+  for (std::size_t i = 0; i < t.corner_texture.size(); ++i) {
+    const PlacedTriangle placed = place_triangle(e, e.points_of(t.triangles[i]));
+    if (placed.face < 0 || placed.crosses) continue;  // rows of their own say so
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int32_t index = t.corner_texture[i][c];
+      if (index < 0) {
+        ++without;
+        continue;
+      }
+      Uv got = t.texture[static_cast<std::size_t>(index)];
+      if (flipped) got[1] = 1 - got[1];
+      const FacePoint at{placed.face, placed.l[c]};
+      corners.push_back({t.triangles[i][c], got, e.surface.surface().control_point(at), slack_of(e, at)});
+    }
+  }
+  return corners;
+}
+
+// The errors of the corners by a rule, in diagonals of the channel; nothing where the rule has no exact cut.
+struct Judged {
+  std::vector<double> error;
+  std::vector<Uv> expected;
+  std::int64_t good = 0;
+};
+std::optional<Judged> judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
+                             const data::Channel& channel, ChannelRule rule, double diagonal) try {
+  const reference::ChannelSurface surface(e.control, channel, rule, e.scheme());
+  Judged result{std::vector<double>(corners.size()), std::vector<Uv>(corners.size())};
+  tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t k) {
+    const TexturedCorner& c = corners[k];
+    const auto p = surface.evaluate(c.at.face, std::max(0, c.at.corner), c.at.first, c.at.second);
+    result.expected[k] = {p.position.x, p.position.y};
+    const double off = std::hypot(c.got[0] - p.position.x, c.got[1] - p.position.y);
+    // Where derivatives grow towards a vertex, they say nothing of what is within reach: the slack is a quarter then.
+    const double speed = std::hypot(std::hypot(p.d1.x, p.d1.y), std::hypot(p.d2.x, p.d2.y));
+    const double excused = p.first_exist ? speed * c.slack : .25 * diagonal;
+    result.error[k] =
+        std::isfinite(off) ? std::max(0., off - excused) / diagonal : std::numeric_limits<double>::infinity();
+  });
+  result.good =
+      std::count_if(result.error.begin(), result.error.end(), [&](double x) { return x <= e.tolerance; });
+  return result;
+} catch (const data::ArgumentError&) {
+  return std::nullopt;
+}
+
+std::string_view word(ChannelRule rule) {
+  return data::kChannelRules[static_cast<std::size_t>(rule)];
+}
+
+// The rule by which all but a hundredth of the corners are right, if there is another one.
+std::string recognised(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
+                       const data::Channel& channel, ChannelRule declared, double diagonal) {
+  for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k) {
+    const auto rule = static_cast<ChannelRule>(k);
+    if (rule == declared) continue;
+    const auto other = judged(e, corners, channel, rule, diagonal);
+    if (other && other->good * 100 >= static_cast<std::int64_t>(corners.size()) * 99)
+      return fmt::format("the texture coordinates are those of the rule {}; the control mesh says {}",
+                         word(rule), word(declared));
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<Result> check_file_channel(const FileEvidence& e) {
+  const auto channel = std::find_if(e.control.channels.begin(), e.control.channels.end(),
+                                    [](const data::Channel& c) { return c.components == 2; });
+  if (channel == e.control.channels.end()) return {};
+  Result r = e.result("file-channel", "diagonal of the channel", e.tolerance);
+  if (lacks(e.tessellation.corner_texture, "texture coordinates", r)) return {r};
+  const ChannelRule rule = channel->rule.value_or(data::kUsualChannelRule);
+  double low[2] = {channel->values[0], channel->values[1]}, high[2] = {low[0], low[1]};
+  for (std::size_t i = 0; i < channel->values.size(); ++i) {
+    low[i % 2] = std::min(low[i % 2], channel->values[i]);
+    high[i % 2] = std::max(high[i % 2], channel->values[i]);
+  }
+  const double diagonal = std::max(std::hypot(high[0] - low[0], high[1] - low[1]), 1e-300);
+
+  // glTF counts the second coordinate from the top of the picture, all others from its foot.
+  const bool flipped = data::io::is_gltf(e.tessellation.name) != data::io::is_gltf(e.control_name);
+  std::int64_t without = 0;
+  const std::vector<TexturedCorner> corners = textured_corners(e, flipped, without);
+  const std::optional<Judged> found = judged(e, corners, *channel, rule, diagonal);
+  if (!found) {
+    r.status = Status::kNotSupported;
+    r.message =
+        "by Chaikin's creasing a semi-sharp edge ends on a seam: only `limitcheck eval --channel` judges "
+        "that";
+    return {r};
+  }
+  const Statistics s = summarise(found->error, e.tolerance);
+  take(r, s);
+  r.decades = decades(found->error);
+  if (s.worst_at >= 0) {
+    const auto at = static_cast<std::size_t>(s.worst_at);
+    r.witness = e.at_vertex(corners[at].vertex);
+    r.witness->face = corners[at].at.face;
+    r.witness->corner = corners[at].at.corner;
+    r.witness->l1 = fmt::format("{}", corners[at].at.first);
+    r.witness->l2 = fmt::format("{}", corners[at].at.second);
+    r.witness->expected = {found->expected[at].begin(), found->expected[at].end()};
+    r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
+  }
+  if (s.bad > 0) say(r, recognised(e, corners, *channel, rule, diagonal));
+  if (without > 0) {
+    r.status = Status::kFinding;
+    r.bad += without, r.of += without;
+    say(r, fmt::format("{} corners of triangles have no texture coordinates", without));
+  }
+  return {r};
+}
+
+}  // namespace limitcheck::verify

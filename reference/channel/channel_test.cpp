@@ -131,6 +131,59 @@ INSTANTIATE_TEST_SUITE_P(Answers, KnownChannels, testing::Range(std::size_t{0}, 
                            return answers().at(answer.param).at("id").template get<std::string>();
                          });
 
+// A chart for each quadrant of the sheet: A, B, .. of the faces left and right below, left and right above its centre. Up to
+// row `joined` the charts share their values.
+struct Quadrants {
+  const char* charts;
+  std::vector<data::SharpEdge> edges = {};
+  float centre = 0;  // its sharpness
+  int joined = -1;
+};
+// The states at the centre in the order of the quadrants: held, crease, semi-sharp, dependent, matches.
+std::string states_of(const Quadrants& quadrants, ChannelRule rule) {
+  ControlMesh mesh = sheet();
+  mesh.sharpness.edges = quadrants.edges;
+  if (quadrants.centre > 0) mesh.sharpness.vertices = {{12, quadrants.centre}};
+  std::vector<std::int32_t> indices;
+  for (int f = 0; f < 16; ++f)
+    for (const std::int32_t v : mesh.faces[static_cast<std::size_t>(f)])
+      indices.push_back(4 * v +
+                        (v / 5 <= quadrants.joined ? 0 : quadrants.charts[(f / 8) * 2 + (f % 4) / 2] - 'A'));
+  const ChannelTopology channel(Topology(25, mesh.faces), mesh.sharpness, indices, rule);
+  std::string result;
+  for (const std::int32_t face : {5, 6, 9, 10})
+    result += "MHSDC"[static_cast<int>(channel.states[channel.corner(face, 12)])];
+  return result;
+}
+
+TEST(Channels, HaveTheStatesOfTheTable) {
+  const auto none = ChannelRule::kNone, only = ChannelRule::kCornersOnly, plus1 = ChannelRule::kCornersPlus1,
+             plus2 = ChannelRule::kCornersPlus2, boundaries = ChannelRule::kBoundaries;
+  EXPECT_EQ(states_of({"AAAA"}, plus2), "MMMM");
+  EXPECT_EQ(states_of({"ABAB"}, none), "CCCC");
+  EXPECT_EQ(states_of({"ABAB"}, plus2), "CCCC");
+  EXPECT_EQ(states_of({"ABAB"}, boundaries), "HHHH");
+  EXPECT_EQ(states_of({"ABAC"}, none), "CCCC");  // three values
+  EXPECT_EQ(states_of({"ABAC"}, only), "CHCH");
+  EXPECT_EQ(states_of({"ABAC"}, plus1), "HHHH");
+  EXPECT_EQ(states_of({"ABCD"}, none), "CCCC");
+  EXPECT_EQ(states_of({"AAAB"}, plus1), "CCCH");  // a concave corner
+  EXPECT_EQ(states_of({"AAAB"}, plus2), "HHHH");
+  EXPECT_EQ(states_of({"ABBA"}, none), "HHHH");            // parted
+  EXPECT_EQ(states_of({"ABAB", {}, 0, 2}, none), "CCCC");  // the end of a seam
+  EXPECT_EQ(states_of({"ABAB", {}, 0, 2}, plus1), "CCCC");
+  EXPECT_EQ(states_of({"ABAB", {}, 0, 2}, plus2), "HHHH");
+  EXPECT_EQ(states_of({"ABAB", {{11, 12, 10}}}, only), "HCHC");
+  EXPECT_EQ(states_of({"ABAB", {{11, 12, 10}}}, plus1), "HHHH");
+  EXPECT_EQ(states_of({"ABAB", {{11, 12, 1.5}}}, only), "SCSC");
+  EXPECT_EQ(states_of({"ABAB", {{11, 12, 1.5}}}, plus1), "SDSD");
+  EXPECT_EQ(states_of({"ABAB", {{11, 12, 1.5}}, 2}, plus1), "SDSD");  // more sharpness does not let go
+  EXPECT_EQ(states_of({"ABAB", {{11, 12, 1.5}}, 2}, only), "SSSS");
+  EXPECT_EQ(states_of({"ABAB", {{12, 17, 1.5}}}, plus1), "CCCC");  // along the seam it says nothing
+  EXPECT_EQ(states_of({"ABAB", {}, 2}, none), "SSSS");
+  EXPECT_EQ(states_of({"ABAB", {}, 10}, none), "HHHH");
+}
+
 // The values after some steps by the channel's rules, and those of the mesh that is cut along its seams, corner by
 // corner: the same numbers. Loop's weights are irrational: there they differ by rounding.
 template <class N>

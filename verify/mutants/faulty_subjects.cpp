@@ -4,13 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <exception>
+#include <future>
 #include <initializer_list>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <new>
-#include <thread>
 #include <utility>
 
 #include "verify/mutants/change_rows.h"
@@ -22,6 +21,8 @@ namespace limitcheck::verify {
 namespace {
 
 using Depths = std::vector<std::int32_t>;
+
+constexpr const char *kFault = "fault", *kHabit = "habit";
 
 // What all instances share, as what is kept in a static variable would be. The last instance empties it, as the
 // end of a process would.
@@ -51,68 +52,29 @@ data::ControlMesh first_like(const data::ControlMesh& mesh, const Change& change
   return mesh;
 }
 
-// In a thread of its own; exceptions pass on.
-void run_apart(const std::function<void()>& work) {
-  std::exception_ptr error;
-  std::thread([&] {
-    try {
-      work();
-    } catch (...) {
-      error = std::current_exception();
-    }
-  }).join();
-  if (error) std::rethrow_exception(error);
-}
+// Where memory comes from that is handed out as parts of one block of the host's: the arrays lie in it from the last to
+// the first, with room between, and it begins and ends with something else.
+struct OneBlock {
+  static constexpr std::size_t kRoom = 64, kArrays = 6;
 
-// The arrays from last to first, as parts of one block that begins and ends with something else.
-template <class Real>
-Output<Real> in_one_block(const lc_request& request, lc_tessellation& out, const Delivered& from) {
-  constexpr std::size_t kRoom = 64;
-  const auto places = [](std::size_t bytes) { return (bytes + 2 * kRoom) / kRoom * kRoom; };
-  const std::size_t vertices = from.positions.size(), points = places(vertices * 3 * sizeof(Real)),
-                    indices = places(from.triangles.size() * 3 * sizeof(std::uint32_t)),
-                    named = places(vertices * sizeof(lc_provenance));
-  (void)request.allocate(request.host, 0);
-  auto* block =
-      static_cast<char*>(request.allocate(request.host, 2 * points + 2 * indices + 2 * named + 2 * kRoom));
-  if (block == nullptr) throw std::bad_alloc();
-  char* at = block + kRoom;
-  const auto take = [&](std::size_t bytes) { return static_cast<void*>(std::exchange(at, at + bytes)); };
-  out.vertex_count = static_cast<std::int64_t>(vertices);
-  out.triangle_count = static_cast<std::int64_t>(from.triangles.size());
-  out.corner = from.corner.empty() ? nullptr : static_cast<std::int32_t*>(take(named));
-  out.triangle_face = static_cast<std::int32_t*>(take(indices));
-  out.triangles = static_cast<std::uint32_t*>(take(indices));
-  out.provenance = static_cast<lc_provenance*>(take(named));
-  out.normals = from.normals.empty() ? nullptr : take(points);
-  out.positions = take(points);
-  return {static_cast<Real*>(out.positions),
-          static_cast<Real*>(out.normals),
-          out.provenance,
-          out.triangles,
-          out.triangle_face,
-          out.corner};
-}
+  OneBlock(const lc_request& request, std::size_t bytes_of_arrays) : parts(request) {
+    const std::size_t bytes = (bytes_of_arrays / kRoom + 2 * kArrays + 2) * kRoom;
+    (void)request.allocate(request.host, 0);
+    end = static_cast<char*>(request.allocate(request.host, bytes));
+    if (end == nullptr) throw std::bad_alloc();
+    end += bytes;
+    parts.host = this;
+    parts.allocate = [](void* host, std::size_t size) -> void* {
+      return static_cast<OneBlock*>(host)->end -= (size / kRoom + 2) * kRoom;
+    };
+  }
 
-struct Faults {
-  static constexpr const char* kKey = "fault";
-  static std::vector<const Change*> all() {
-    std::vector<const Change*> list;
-    for (const FaultTable& table : fault_tables())
-      for (const Change& c : table.faults) list.push_back(&c);
-    return list;
-  }
-};
-struct Habits {
-  static constexpr const char* kKey = "habit";
-  static std::vector<const Change*> all() {
-    std::vector<const Change*> list;
-    for (const Change& c : habits()) list.push_back(&c);
-    return list;
-  }
+  char* end;
+  lc_request parts;
 };
 
-template <class Table>
+// `faulty`, whose option chooses from the tables of faults, or `unusual`, from the habits.
+template <bool kFaulty>
 class ChangedSubject {
  public:
   static constexpr bool kLeavesRefusals = true;  // to the subject that is changed
@@ -154,23 +116,27 @@ class ChangedSubject {
     behave();
     Delivered copy;
     if (session_ && change().in_a_thread)
-      run_apart([&] { copy = changed(request); });
+      copy = std::async(std::launch::async, [&] { return changed(request); }).get();
     else if (session_)
       copy = changed(request);
-    if (declared_.precision == LC_FLOAT32)
-      hand_over<float>(copy, request, out);
-    else
-      hand_over<double>(copy, request, out);
+    declared_.precision == LC_FLOAT32 ? hand_over<float>(copy, request, out)
+                                      : hand_over<double>(copy, request, out);
   }
 
  private:
   // What the options say: the row of the table, the subject that is changed, and the options for that one.
   struct Choice {
     explicit Choice(Options& given) {
-      const auto all = Table::all();
+      std::vector<const Change*> all;
       std::vector<std::string_view> names;
-      for (const Change* c : all) names.push_back(c->name);
-      change = all[static_cast<std::size_t>(given.choice(Table::kKey, names))];
+      const auto offer = [&](std::span<const Change> rows) {
+        for (const Change& c : rows) all.push_back(&c), names.push_back(c.name);
+      };
+      if (kFaulty)
+        for (const FaultTable& table : fault_tables()) offer(table.faults);
+      else
+        offer(habits());
+      change = all[static_cast<std::size_t>(given.choice(kFaulty ? kFault : kHabit, names))];
       const std::string name = given.value("of", "null");
       subject = find_subject(name);
       if (subject == nullptr || subject == lc_subject_faulty() || subject == lc_subject_unusual())
@@ -232,14 +198,17 @@ class ChangedSubject {
 
   template <class Real>
   void hand_over(const Delivered& copy, const lc_request& request, lc_tessellation& out) {
-    const std::size_t vertices = copy.positions.size();
-    const auto output =
-        copy.in_one_block
-            ? in_one_block<Real>(request, out, copy)
-            : allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices),
-                                    static_cast<std::int64_t>(copy.triangles.size()),
-                                    !copy.normals.empty() || (vertices == 0 && declared_.normals != 0),
-                                    !copy.corner.empty());
+    const std::size_t vertices = copy.positions.size(), triangles = copy.triangles.size();
+    const auto allocate = [&](const lc_request& from) {
+      return allocate_output<Real>(
+          from, out, static_cast<std::int64_t>(vertices), static_cast<std::int64_t>(triangles),
+          !copy.normals.empty() || (vertices == 0 && declared_.normals != 0), !copy.corner.empty());
+    };
+    constexpr std::size_t kVertex = 6 * sizeof(Real) + sizeof(lc_provenance) + sizeof(std::int32_t);
+    constexpr std::size_t kTriangle = 3 * sizeof(std::uint32_t) + sizeof(std::int32_t);
+    const auto output = copy.in_one_block
+                            ? allocate(OneBlock(request, vertices * kVertex + triangles * kTriangle).parts)
+                            : allocate(request);
     copy.write(output);
     if (copy.overrun) output.positions[3 * vertices] = Real(1);
     if (copy.underrun) output.positions[-1] = Real(1);
@@ -286,14 +255,14 @@ const std::vector<FaultTable>& fault_tables() {
 }
 
 std::string faulty_options(std::string_view fault, std::string_view subject, std::string_view options) {
-  return fmt::format("{}={},of={}{}{}", Faults::kKey, fault, subject, options.empty() ? "" : ",", options);
+  return fmt::format("{}={},of={}{}{}", kFault, fault, subject, options.empty() ? "" : ",", options);
 }
 
 }  // namespace limitcheck::verify
 
 extern "C" const lc_subject* lc_subject_faulty() {
   using namespace limitcheck::verify;
-  static const lc_subject subject = make_subject<ChangedSubject<Faults>>(
+  static const lc_subject subject = make_subject<ChangedSubject<true>>(
       "faulty", "another subject with a fault planted: what a check must fail on",
       "of=SUBJECT, fault=NAME (default none), and the options of that subject");
   return &subject;
@@ -301,7 +270,7 @@ extern "C" const lc_subject* lc_subject_faulty() {
 
 extern "C" const lc_subject* lc_subject_unusual() {
   using namespace limitcheck::verify;
-  static const lc_subject subject = make_subject<ChangedSubject<Habits>>(
+  static const lc_subject subject = make_subject<ChangedSubject<false>>(
       "unusual", "another subject with a habit that is rare and right: what no check may blame",
       "of=SUBJECT, habit=NAME (default none), and the options of that subject");
   return &subject;

@@ -1,322 +1,295 @@
 // SPDX-License-Identifier: MIT
-// The adapters deliver what their libraries compute, and say truly where each point lies.
-// Three ways to the same points: the naive subdivider, Stam's evaluator, OpenSubdiv's uniform refinement with
-// its limit masks. They share no code: reference/ has both of ours, by different methods.
+// The adapters of both schemes: each lattice point of each face once, named truly, and the values of the reference
+// wherever the library is right. Where it is not, findings.json has it.
 #include <gtest/gtest.h>
 
 #include <tbb/global_control.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <numbers>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
-#include "data/test_support/assertions.h"
-#include "reference/loop/naive.h"
-#include "reference/loop/stam.h"
+#include "data/generators/polygon_meshes.h"
+#include "reference/surface/surface.h"
 #include "verify/peers/test_lattice.h"
+#include "verify/row/bounds.h"
 #include "verify/subject/registry.h"
 
+namespace limitcheck::verify {
 namespace {
 
-using namespace limitcheck;
-using namespace limitcheck::verify;
-using namespace limitcheck::verify::test;
+using data::Scheme;
+using test::Expected;
 
 struct Named {
-  const char* subject;
-  const char* options;
+  std::string name;
+  data::ControlMesh mesh;
 };
-const std::vector<Named> kAdapters{{"opensubdiv-far", ""},
-                                   {"opensubdiv-far", "precision=double"},
-                                   {"opensubdiv-bfr", ""},
-                                   {"opensubdiv-bfr", "precision=double,approx-level=4"},
-                                   {"opensubdiv-far-patches", ""},
-                                   {"opensubdiv-far-patches", "precision=double,level=4,end-cap=bspline"},
-                                   {"cgal", ""},
-                                   {"openmesh", ""}};
 
-using Expected = test::Expected<data::Scheme::kLoop>;
+// One face of n corners alone: boundary vertices of one face.
+data::ControlMesh polygon(int n) {
+  data::ControlMesh mesh;
+  std::vector<std::int32_t> corners;
+  for (int k = 0; k < n; ++k) {
+    const double turn = 2 * std::numbers::pi * k / n;
+    mesh.positions.push_back({std::cos(turn), std::sin(turn), 0.3 * std::cos(2 * turn)});
+    corners.push_back(k);
+  }
+  mesh.faces.push_back(corners);
+  return mesh;
+}
 
-TEST(Adapters, CoverEachFaceByItsLatticeOnceAndCounterClockwise) {
-  for (const Named& named : kAdapters) {
-    for (const auto& [name, mesh] : shapes()) {
-      for (const int depth : {0, 1, 3}) {
-        SCOPED_TRACE(std::string(named.subject) + " " + named.options + " on " + name);
-        Session session(*find_subject(named.subject), mesh, named.options);
+// Every interior valence class, every boundary situation, faces whose corners are all irregular, faces of any size.
+const std::vector<Named>& meshes(Scheme scheme) {
+  const auto named = [](std::vector<const char*> names) {
+    std::vector<Named> all;
+    for (const char* name : names) all.push_back({name, data::named_mesh(name)});
+    return all;
+  };
+  static const std::vector<Named> triangles = named(
+      {"tetrahedron", "octahedron", "cube",        "torus",     "triangle",       "strip:5",   "strip:6",
+       "wheel:3",     "wheel:3:1",  "wheel:7",     "wheel:7:2", "wheel:49",       "fan:1",     "fan:3",
+       "fan:5:1",     "fan:8:2",    "ragged-disc", "holes",     "two-components", "bumpy:200", "bumpy:800"});
+  static const std::vector<Named> quads = [&] {
+    std::vector<Named> all = named({"quad-cube", "quad-torus:4:3", "octahedron", "dual:bumpy:40",
+                                    "quad-wheel:3:1", "quad-wheel:5:1", "quad-wheel:6:1", "quad-wheel:7:7",
+                                    "quad-wheel:8:1", "quad-wheel:12:1", "quad-wheel:50:7"});
+    for (int k = 1; k <= 6; ++k) all.push_back({"fan " + std::to_string(k), data::quad_fan(k, 1)});
+    for (int n = 3; n <= 8; ++n) {
+      all.push_back({"prism " + std::to_string(n), data::polygon_prism(n)});
+      all.push_back({"polygon " + std::to_string(n), polygon(n)});
+    }
+    // The largest faces that Embree has.
+    all.push_back({"prism 15", data::polygon_prism(15)});
+    return all;
+  }();
+  return scheme == Scheme::kLoop ? triangles : quads;
+}
+
+// A point as one face has it.
+struct Point {
+  const data::ControlMesh& mesh;
+  const reference::Topology& topology;  // of the refined mesh, whose first vertices are the control vertices
+  std::int32_t face, vertex;
+  int depth;
+
+  // The number of faces at a boundary vertex, 0 inside.
+  std::size_t boundary_faces(std::int32_t v) const {
+    const auto sector = topology.sector(v);
+    return sector.closed ? 0 : sector.faces.size();
+  }
+};
+
+// Where a library is right: findings.json has the rest.
+using Where = bool (*)(const Point&);
+struct Subject {
+  const char *name, *options;
+  Where position, normal;
+};
+
+bool always(const Point&) {
+  return true;
+}
+bool never(const Point&) {
+  return false;
+}
+bool inside(const Point& p) {
+  return p.boundary_faces(p.vertex) == 0;
+}
+// Beyond three faces its tangents at boundary vertices are those of another rule.
+bool for_far_on_triangles(const Point& p) {
+  return p.boundary_faces(p.vertex) <= 3;
+}
+// Limit() is given polygons that are no quads.
+bool for_far(const Point& p) {
+  return p.depth > 0 || p.mesh.faces.corners().size() == 4 * p.mesh.faces.size();
+}
+bool for_far_tangents(const Point& p) {
+  return for_far(p) && p.boundary_faces(p.vertex) < 3;
+}
+// Gregory patches have the tangents of regular vertices only.
+bool regular(const Point& p) {
+  const auto sector = p.topology.sector(p.vertex);
+  return sector.faces.size() == (sector.closed ? 4 : 2);
+}
+bool closed(const Point& p) {
+  const auto edges = p.topology.edges();
+  return std::none_of(edges.begin(), edges.end(), [](const reference::Edge& e) { return e.on_boundary(); });
+}
+bool for_embree(const Point& p) {
+  const auto corners = p.mesh.faces[static_cast<std::size_t>(p.face)];
+  return std::none_of(corners.begin(), corners.end(),
+                      [&](std::int32_t v) { return p.boundary_faces(v) == 1; });
+}
+bool for_embree_tangents(const Point& p) {
+  return for_embree(p) && regular(p);
+}
+
+const std::vector<Subject>& subjects(Scheme scheme) {
+  static const std::vector<Subject> of_triangles{
+      {"naive", "", always, always},
+      {"opensubdiv-far", "", always, for_far_on_triangles},
+      {"opensubdiv-far", "precision=double", always, for_far_on_triangles},
+      {"opensubdiv-bfr", "", never, never},
+      {"opensubdiv-bfr", "precision=double,approx-level=4", always, inside},
+      {"opensubdiv-far-patches", "", never, never},
+      {"opensubdiv-far-patches", "precision=double,level=4,end-cap=bspline", never, never},
+      {"opensubdiv-far-patches", "precision=double,level=4,corners=smooth", always, never},
+      {"cgal", "", always, never},
+      {"openmesh", "", always, never},
+      {"vtk", "", always, never}};
+  static const std::vector<Subject> of_quads{
+      {"naive", "", always, always},
+      {"opensubdiv-far", "", for_far, for_far_tangents},
+      {"opensubdiv-far", "precision=double", for_far, for_far_tangents},
+      {"opensubdiv-bfr", "", never, never},
+      {"opensubdiv-bfr", "precision=double,approx-level=4", always, regular},
+      {"opensubdiv-far-patches", "", never, never},
+      {"opensubdiv-far-patches", "precision=double,level=4,corners=smooth", always, regular},
+      {"opensubdiv-far-patches", "precision=double,level=4,corners=smooth,evaluate=limit-stencils", always,
+       regular},
+      {"cgal", "", always, never},
+      {"openmesh", "", closed, never},
+      {"embree", "", for_embree, for_embree_tangents}};
+  return scheme == Scheme::kLoop ? of_triangles : of_quads;
+}
+
+template <class Of>
+class Adapters : public testing::Test {
+ protected:
+  // Of each subject in this build: visit(subject, session).
+  template <class Visit>
+  static void with_each(const data::ControlMesh& mesh, Visit visit) {
+    for (const Subject& subject : subjects(Of::value))
+      if (const lc_subject* there = find_subject(subject.name)) {
+        SCOPED_TRACE(std::string(subject.name) + ":" + subject.options);
+        Session session(*there, mesh, subject.options, Session::Input::kValid, Of::value);
+        visit(subject, session);
+      }
+  }
+};
+using Schemes = testing::Types<std::integral_constant<Scheme, Scheme::kLoop>,
+                               std::integral_constant<Scheme, Scheme::kCatmullClark>>;
+TYPED_TEST_SUITE(Adapters, Schemes);
+
+double largest(const data::ControlMesh& mesh) {
+  double most = 0;
+  for (const auto& p : mesh.positions)
+    for (const double x : p) most = std::max(most, std::abs(x));
+  return most;
+}
+
+// The largest errors in their bounds.
+struct Worst {
+  double position = 0, normal = 0;
+};
+template <Scheme scheme>
+void expect_reference(const Subject& subject, const Session& session, const Tessellation& t,
+                      const Expected<scheme>& expected, Worst& worst) {
+  const lc_capabilities& c = session.capabilities();
+  const int depth = expected.refined().depth();
+  const double unit = data::box_diagonal(session.mesh());
+  const double bound = position_bound(c.precision, depth, largest(session.mesh()), unit);
+  const double turn = c.precision == LC_FLOAT64 ? 1e-9 : normal_bound(c.precision, depth);
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+    EXPECT_FALSE(t.position_unwritten(v));
+    const Place p = t.place(v);
+    const std::int32_t at = expected.vertex(p);
+    const Point point{session.mesh(), expected.refined().topology(), p.face, at, depth};
+    const auto judge = [&](double error, double most, double& in_bounds) {
+      EXPECT_LE(error, most) << "face " << p.face << " corner " << p.corner << " (" << p.i << ", " << p.j
+                             << ")";
+      in_bounds = std::max(in_bounds, error / most);
+    };
+    if (subject.position(point))
+      judge(norm(t.position(v) - expected.point(at, c.points)) / unit, bound, worst.position);
+    if (t.has_normals() && expected.has_normal(at) && subject.normal(point))
+      judge(angle_degrees(t.normal(v), expected.normal(at)), turn, worst.normal);
+  }
+}
+
+TYPED_TEST(Adapters, DeliverEachLatticePointOnceAndWhatTheReferenceSays) {
+  constexpr Scheme kScheme = TypeParam::value;
+  std::map<std::string, Worst> worst;
+  for (const Named& m : meshes(kScheme))
+    for (int depth = 0; depth <= 3; ++depth)
+      this->with_each(m.mesh, [&](const Subject& subject, Session& session) {
+        SCOPED_TRACE(m.name + " at depth " + std::to_string(depth));
         const Tessellation t = session.tessellate(depth);
         EXPECT_TRUE(t.defects().empty());
         EXPECT_TRUE(t.overruns().empty());
         EXPECT_EQ(t.has_normals(), session.capabilities().normals == 1);
-        expect_full_lattice(Expected(session.mesh(), depth), t, std::vector<int>(mesh.faces.size(), depth));
-        for (std::int64_t v = 0; v < t.vertex_count(); ++v) EXPECT_FALSE(t.position_unwritten(v));
-      }
-    }
-  }
+        const Expected<kScheme> expected(session.mesh(), depth);
+        expect_full_lattice(expected, t, std::vector<int>(m.mesh.faces.size(), depth));
+        if (session.capabilities().per_face_depth == 0) {
+          EXPECT_EQ(t.vertex_count(), std::ssize(expected.refined().positions())) << "each point is shared";
+        }
+        if (!this->HasFatalFailure()) expect_reference(subject, session, t, expected, worst[session.label()]);
+      });
+  for (const auto& [label, most] : worst)
+    std::printf("%-90s positions %.2g, normals %.2g of their bounds\n", label.c_str(), most.position,
+                most.normal);
 }
 
-TEST(Adapters, TakeADepthForEachFaceWhereTheySaySo) {
+TYPED_TEST(Adapters, TakeADepthForEachFaceWhereTheySaySo) {
+  constexpr Scheme kScheme = TypeParam::value;
   const auto mesh = data::named_mesh("octahedron");
   const std::vector<std::int32_t> depth{0, 3, -1, 1, 2, -1, 3, 0};
-  for (const Named& named : kAdapters) {
-    Session session(*find_subject(named.subject), mesh, named.options);
-    if (session.capabilities().per_face_depth == 0) continue;
-    SCOPED_TRACE(named.subject);
-    expect_full_lattice(Expected(mesh, 3), session.tessellate(depth), depth);
-  }
+  this->with_each(mesh, [&](const Subject&, Session& session) {
+    if (session.capabilities().per_face_depth != 0)
+      expect_full_lattice(Expected<kScheme>(mesh, 3), session.tessellate(depth), depth);
+  });
 }
 
-TEST(Adapters, ThatRefineAWholeMeshShareEveryPoint) {
-  for (const char* subject : {"opensubdiv-far", "cgal", "openmesh"}) {
-    for (const auto& [name, mesh] : shapes()) {
-      Session session(*find_subject(subject), mesh);
-      for (const auto& [place, vertices] : places(mesh, session.tessellate(3))) {
-        EXPECT_EQ(vertices.size(), 1u) << subject << " on " << name;
+// Two ways of the reference that share no code: what subjects are held to above, and Stam's.
+TYPED_TEST(Adapters, AreHeldToWhatStamsEvaluatorSaysToo) {
+  constexpr Scheme kScheme = TypeParam::value;
+  constexpr int kDepth = 3;
+  double apart = 0, turned = 0;  // in units of the last place; in degrees
+  for (const Named& m : meshes(kScheme)) {
+    const Expected<kScheme> expected(m.mesh, kDepth);
+    const reference::Surface stam(m.mesh, kScheme);
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(m.mesh.faces.size()); ++f)
+      for (const auto& [v, p] : expected.lattice(f, expected.steps())) {
+        const auto n = static_cast<double>(expected.domain(f).denominator(expected.steps()));
+        const auto exact = stam.evaluate(f, p.part, static_cast<double>(p.i) / n,
+                                         static_cast<double>(p.j) / n, reference::Order::kFirst);
+        apart = std::max(apart, norm(vector_of(exact.position) - expected.point(v, LC_POINTS_LIMIT)) /
+                                    (largest(m.mesh) * 0x1p-52));
+        if (expected.has_normal(v))
+          turned = std::max(turned, angle_degrees(vector_of(exact.normal), expected.normal(v)));
       }
-    }
   }
+  EXPECT_LE(apart, 4);
+  EXPECT_LE(turned, 1e-9);
 }
 
-// VTK's filter is there or not; where it is, it is one more of them, in float.
-TEST(Adapters, ThatThisBuildMayLackAreThereOrSaidToBeMissing) {
-  const lc_subject* vtk = find_subject("vtk");
-  if (vtk == nullptr) {
-    ASSERT_EQ(missing_subjects().size(), 1U);
-    EXPECT_EQ(missing_subjects()[0].name, "vtk");
-    EXPECT_TRUE(says(missing_subjects()[0].why, "libvtk9-dev"));
-    return;
-  }
-  EXPECT_TRUE(missing_subjects().empty());
-  for (const auto& [name, mesh] : shapes()) {
-    SCOPED_TRACE(name);
-    Session vtk_session(*vtk, mesh);
-    Session cgal_session(*lc_subject_cgal(), vtk_session.mesh());
-    const Tessellation in_float = vtk_session.tessellate(3), exact = cgal_session.tessellate(3);
-    expect_full_lattice(Expected(mesh, 3), in_float, std::vector<int>(mesh.faces.size(), 3));
-    const auto expected = places(mesh, exact);
-    for (const auto& [place, vertices] : places(mesh, in_float)) {
-      EXPECT_EQ(vertices.size(), 1u);
-      // Three steps, each rounding to float once: 3 * sqrt(3) * 2^-24 of the largest coordinate.
-      EXPECT_LE(distance(in_float.position(vertices[0]), exact.position(expected.at(place)[0])),
-                1e-6 * data::box_diagonal(mesh));
-    }
-  }
-}
-
-// Decides that both libraries use Loop's weights (with Warren's the vertex of valence 4 would move by
-// 0.375 instead of 0.484 of the way) and the B-spline boundary.
-TEST(RefiningAdapters, UseLoopsWeightsAndTheSplineBoundary) {
-  double worst = 0;
-  for (const char* subject : {"cgal", "openmesh"}) {
-    for (const auto& [name, mesh] : shapes()) {
-      Session session(*find_subject(subject), mesh);
-      const Tessellation t = session.tessellate(1);
-      const Expected expected(mesh, 1);
-      for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-        const double error =
-            distance(t.position(v), expected.point(expected.vertex(t.place(v)), LC_POINTS_REFINED));
-        EXPECT_LE(error, 1e-15) << subject << " on " << name;  // a dozen roundings of numbers near 1
-        worst = std::max(worst, error);
-      }
-    }
-  }
-  record("worst_distance", worst);
-}
-
-TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
+TYPED_TEST(Adapters, DoNotDependOnTheNumberOfThreads) {
   const auto bytes = [](const Tessellation& t) {
     std::string all;
-    for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-      for (const auto bits : {t.position_bits(v), t.has_normals() ? t.normal_bits(v) : t.position_bits(v)}) {
-        all.append(reinterpret_cast<const char*>(bits.data()), bits.size());
-      }
-    }
-    all.append(reinterpret_cast<const char*>(t.provenance().data()), t.provenance().size_bytes());
-    all.append(reinterpret_cast<const char*>(t.triangles().data()), t.triangles().size_bytes());
+    const auto append = [&](const auto& array) {
+      all.append(reinterpret_cast<const char*>(array.data()), array.size_bytes());
+    };
+    append(t.positions_f32()), append(t.positions_f64()), append(t.normals_f32()), append(t.normals_f64());
+    append(t.provenance()), append(t.corners()), append(t.triangles()), append(t.triangle_face());
     return all;
   };
-  const tbb::global_control four(tbb::global_control::max_allowed_parallelism,
-                                 4);  // whatever this machine has
-  const auto mesh = data::named_mesh("bumpy:4000");
-  for (const Named& named : kAdapters) {
-    Session session(*find_subject(named.subject), mesh, named.options);
-    const std::string one = bytes(session.tessellate(2, 1));
-    EXPECT_EQ(one, bytes(session.tessellate(2, 4))) << named.subject;
-    EXPECT_EQ(one, bytes(session.tessellate(2, 1))) << named.subject << ", asked again";
-  }
-}
-
-TEST(Adapters, RefuseWhatDoesNotFitIn32BitIndices) {
-  const auto mesh = data::named_mesh("bumpy:11000");
-  for (const char* subject : {"opensubdiv-far", "cgal", "openmesh"}) {
-    Session session(*find_subject(subject), mesh);
-    const auto refused = thrown<SubjectError>([&] { session.tessellate(8); });
-    EXPECT_TRUE(refused && refused->status() == LC_NOT_SUPPORTED) << subject;
-  }
-}
-
-// OpenMesh reads beyond its weight table from valence 50 on: the adapter refuses in its place, and says why.
-TEST(OpenMesh, IsNotRunWhereItReadsOutOfBounds) {
-  EXPECT_NO_THROW(Session(*lc_subject_openmesh(), data::named_mesh("wheel:49")));
-  const auto refused =
-      thrown<SubjectError>([] { Session(*lc_subject_openmesh(), data::named_mesh("wheel:50")); });
-  ASSERT_TRUE(refused) << "valence 50 was accepted";
-  EXPECT_EQ(refused->status(), LC_INVALID_INPUT);
-  EXPECT_TRUE(says(refused->what(), "50 weights"));
-}
-
-// 20000 faces of 4^10 triangles: 10^10 vertices, and 10^11 bytes that nobody asks for.
-TEST(SubjectAdapters, RefuseMoreVerticesThanIndicesNameBeforeTheyAllocate) {
-  const auto mesh = data::named_mesh("sheet:100:100");
-  const std::vector<std::int32_t> depth(mesh.faces.size(), 10);
-  for (const lc_subject* subject : {lc_subject_row_stream(), lc_subject_sliding_window()}) {
-    for (const char* options : {"output=strips", "output=indexed"}) {
-      Session session(*subject, mesh, options);
-      EXPECT_TRUE(says(refusal_of<SubjectError>([&] { session.tessellate(depth, 1); }), "32-bit indices"));
-    }
-  }
-}
-
-// Vertices where OpenSubdiv's tangents are of another rule, so that its normal is not the surface's (see
-// opensubdiv_test.cpp): on the boundary, with four faces or more.
-std::set<std::int64_t> boundary_vertices_of_four_faces_or_more(const data::ControlMesh& mesh) {
-  std::vector<int> faces(mesh.positions.size()), edges(mesh.positions.size());
-  std::set<std::pair<int, int>> directed;
-  for (const auto& t : triangles_of(mesh)) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      ++faces[t[k]];
-      directed.emplace(t[k], t[(k + 1) % 3]);
-    }
-  }
-  std::set<std::int64_t> result;
-  for (const auto& [a, b] : directed) {
-    if (directed.contains({b, a})) continue;
-    for (const int v : {a, b}) {
-      if (faces[v] >= 4) result.insert(v);
-    }
-  }
-  return result;
-}
-
-struct Worst {
-  double position = 0;  // of the box
-  double normal = 0;    // degrees
-};
-
-Worst against_stam(const char* subject, const char* options, const std::string& name, int depth) {
-  const auto mesh = data::named_mesh(name);
-  const auto spared = boundary_vertices_of_four_faces_or_more(mesh);
-  Session session(*find_subject(subject), mesh, options);
-  const Tessellation t = session.tessellate(depth, 2);
-  const reference::StamEvaluator<double> stam(session.mesh());
-  const double unit = data::box_diagonal(mesh);
-  Worst worst;
-  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    const lc_provenance& p = t.provenance()[v];
-    const auto exact = stam.evaluate(p.face, double(p.i) / p.denominator, double(p.j) / p.denominator,
-                                     reference::Order::kFirst);
-    worst.position = std::max(worst.position, distance(t.position(v), vector_of(exact.position)) / unit);
-    const PointName at = place(mesh, p);
-    const bool spare =
-        std::get<0>(at) == 0 && spared.contains(std::get<1>(at)) && std::string(subject) != "naive";
-    const double a = angle_degrees(t.normal(v), vector_of(exact.normal));
-    if (!spare) worst.normal = std::max(worst.normal, std::isfinite(a) ? a : 180);
-  }
-  record("position_" + name, worst.position);
-  record("normal_" + name, worst.normal);
-  return worst;
-}
-
-const std::vector<std::string> kMeshes{"bumpy:200",  "bumpy:800", "bumpy:4000",     "tetrahedron",
-                                       "octahedron", "cube",      "torus",          "wheel:3",
-                                       "wheel:7",    "wheel:50",  "fan:3",          "ragged-disc",
-                                       "holes",      "strip:5",   "two-components", "triangle"};
-
-TEST(Agreement, OfTheNaiveSubdividerWithStamsEvaluator) {
-  for (const auto& name : kMeshes) {
-    const Worst worst = against_stam("naive", "", name, 3);
-    EXPECT_LE(worst.position, 1e-14) << name;
-    EXPECT_LE(worst.normal, 1e-9) << name;
-  }
-}
-
-// Beyond the depths and valences of the other tests. A coordinate is rounded some eight times at each of
-// depth + 2 steps, by 2^-24 of the largest, which is less than the box; normals are differences of points
-// 2^-depth apart: 1e-3 rad at depth 5, twice that with each level (verify/row/bounds.h).
-TEST(Agreement, OfRowStreamWithStamsEvaluatorAtDepthsSevenAndEightAndHighValences) {
-  for (const int depth : {7, 8}) {
-    for (const char* name : {"wheel:13:1", "wheel:14:1", "wheel:17:1", "wheel:33:1", "bipyramid:13"}) {
-      const Worst worst = against_stam("row-stream", "", name, depth);
-      EXPECT_LE(worst.position, std::sqrt(3.) * 8 * (depth + 2) * 0x1p-24) << name << " depth " << depth;
-      EXPECT_LE(worst.normal, std::ldexp(1e-3, depth - 5) * 180 / std::numbers::pi)
-          << name << " depth " << depth;
-    }
-  }
-}
-
-// Every value that it delivers is one that the recursion says, some of them for a neighbour: never a mean,
-// and no further from what the recursion says in this triangle than rounding (a few ulp of coordinates below
-// 2, and differences of points 1/8 apart for normals). A face has one vertex for each lattice point.
-TEST(Naive, DeliversWhatTheRecursionSays) {
-  Session session(*lc_subject_naive(), data::named_mesh("bumpy:200"));
-  const Tessellation t = session.tessellate(3);
-  const reference::NaiveSubdivider<double> subdivider(session.mesh());
-  std::set<Vector> positions, normals;
-  const auto each_corner = [&](const auto& body) {
-    std::int64_t triangle = 0;
-    for (std::size_t face = 0; face < subdivider.face_count(); ++face)
-      subdivider.tessellate(face, 3, [&](const reference::LeafTriangle<double>& leaf) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto& [p, n] = std::tie(leaf[k].position, leaf[k].normal);
-          body(t.triangles()[triangle][k], vector_of(p), vector_of(n));
-        }
-        ++triangle;
-      });
-    EXPECT_EQ(triangle, t.triangle_count());
-  };
-  each_corner([&](std::int64_t, const Vector& p, const Vector& n) {
-    positions.insert(p);
-    normals.insert(n);
-  });
-  each_corner([&](std::int64_t v, const Vector& p, const Vector& n) {
-    EXPECT_TRUE(positions.contains(t.position(v))) << v;
-    EXPECT_TRUE(normals.contains(t.normal(v))) << v;
-    for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_NEAR(t.position(v)[c], p[c], 16 * 0x1p-53) << v;
-      EXPECT_NEAR(t.normal(v)[c], n[c], 256 * 0x1p-53) << v;
-    }
-  });
-  EXPECT_EQ(t.vertex_count(), 200 * 45);
-}
-
-TEST(Agreement, OfOpenSubdivFarInDoubleWithStamsEvaluator) {
-  for (const auto& name : kMeshes) {
-    const Worst worst = against_stam("opensubdiv-far", "precision=double", name, 3);
-    EXPECT_LE(worst.position, 1e-14) << name;
-    EXPECT_LE(worst.normal, 1e-9) << name;
-  }
-}
-
-TEST(Agreement, OfOpenSubdivBfrAtLevelsBeyondTheDepthWithStamsEvaluator) {
-  for (const char* name : {"bumpy:200", "bumpy:800", "octahedron", "wheel:3", "wheel:7", "torus"}) {
-    const Worst worst = against_stam("opensubdiv-bfr", "precision=double,approx-level=4", name, 3);
-    EXPECT_LE(worst.position, 1e-14) << name;
-  }
-}
-
-// Gregory end caps are exact in lattice points as deep as the patches are isolated, whole patches everywhere
-// else; the library's corners of one face are not (findings.json).
-TEST(Agreement, OfOpenSubdivFarsPatchesAtLevelsBeyondTheDepthWithStamsEvaluator) {
-  for (const char* name :
-       {"bumpy:200", "bumpy:800", "octahedron", "wheel:3", "wheel:7", "torus", "fan:1", "triangle"}) {
-    const Worst worst =
-        against_stam("opensubdiv-far-patches", "precision=double,level=4,corners=smooth", name, 3);
-    EXPECT_LE(worst.position, 1e-14) << name;
-  }
+  // Whatever this machine has.
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
+  const bool loop = TypeParam::value == Scheme::kLoop;
+  this->with_each(data::named_mesh(loop ? "bumpy:4000" : "dual:bumpy:800"),
+                  [&](const Subject&, Session& session) {
+                    const std::string one = bytes(session.tessellate(2, 1));
+                    EXPECT_EQ(one, bytes(session.tessellate(2, 4)));
+                    EXPECT_EQ(one, bytes(session.tessellate(2, 1))) << "asked again";
+                  });
 }
 
 }  // namespace
+}  // namespace limitcheck::verify

@@ -39,62 +39,45 @@ namespace rs = limitcheck::fast::row_stream;
 
 enum class Form { kStrips, kIndexed, kPatches };
 
-// What the options of either engine say alike.
+// What the options of an engine say.
 struct Settings {
-  explicit Settings(Options& options, const std::vector<std::string_view>& forms)
-      : form(static_cast<Form>(options.choice("output", forms))) {
+  Settings(Options& options, bool window) {
+    std::vector<std::string_view> forms{"strips", "indexed", "patches"};
+    if (window) forms.pop_back();
+    form = static_cast<Form>(options.choice("output", forms));
     tessellator.provenance = true;
     constexpr std::array kRepairs{fast::Repair::kStitch, fast::Repair::kFan, fast::Repair::kNone};
     tessellator.cracks.repair = kRepairs[options.choice("repair", {"stitch", "fan", "none"})];
+    window ? read_window(options) : read_stream(options);
   }
+
   Form form;
-  bool wide = false;
-  int frames = 0;  // before the one that is asked for, as patches
   fast::TessellatorOptions tessellator;
-};
+  // Of the sliding window.
+  bool wide = false;
+  fast::PrintedRules rules;
+  // Of row streaming.
+  int frames = 0;  // before the one that is asked for, as patches
+  const rs::Kernel* kernel = nullptr;
 
-struct WindowSettings : Settings {
-  template <class Real>
-  using Engine = fast::Tessellator<Real>;
-  static constexpr int kMaxDepth = fast::kDeepest;
-  static constexpr bool kDoubles = true;
-
-  explicit WindowSettings(Options& options) : Settings(options, {"strips", "indexed"}) {
+ private:
+  void read_window(Options& options) {
     wide = options.choice("precision", {"float", "double"}) == 1;
     constexpr std::array kCentres{fast::FanCentre::kLimit, fast::FanCentre::kFlatLimit,
                                   fast::FanCentre::kFlatControl};
     tessellator.cracks.centre = kCentres[options.choice("centre", {"limit", "flat", "flat-control"})];
     if (options.choice("pairing", {"corrected", "printed"}) == 1) rules.pairing = fast::PairingRule::kPrinted;
   }
-  template <class Real>
-  std::unique_ptr<Engine<Real>> engine(const data::ControlMesh& mesh) const {
-    return std::make_unique<Engine<Real>>(mesh, tessellator, rules);
-  }
-  fast::PrintedRules rules;
-};
-
-struct StreamSettings : Settings {
-  template <class>
-  using Engine = rs::StreamTessellator;
-  static constexpr int kMaxDepth = rs::kMaxDepth;
-  static constexpr bool kDoubles = false;
-
-  explicit StreamSettings(Options& options) : Settings(options, {"strips", "indexed", "patches"}) {
+  void read_stream(Options& options) {
     frames = options.integer("frames", 0, 0, 1000);
     if (frames > 0) form = Form::kPatches;
     const std::string target = options.value("target", rs::kernels().front().name);
     kernel = rs::find_kernel(target.c_str());
-    if (kernel == nullptr) {
-      std::string known;
-      for (const rs::Kernel& k : rs::kernels()) known += (known.empty() ? "" : ", ") + std::string(k.name);
-      throw SubjectError(LC_INVALID_INPUT, "target=" + target + ": this machine has " + known);
-    }
+    if (kernel != nullptr) return;
+    std::string known;
+    for (const rs::Kernel& k : rs::kernels()) known += (known.empty() ? "" : ", ") + std::string(k.name);
+    throw SubjectError(LC_INVALID_INPUT, "target=" + target + ": this machine has " + known);
   }
-  template <class Real>
-  std::unique_ptr<rs::StreamTessellator> engine(const data::ControlMesh& mesh) const {
-    return std::make_unique<rs::StreamTessellator>(mesh, tessellator, *kernel);
-  }
-  const rs::Kernel* kernel = nullptr;
 };
 
 // Refuses, before anything is allocated, frames with more vertices than 32-bit indices name: a pair of 2 k^2
@@ -107,32 +90,30 @@ void refuse_too_many_vertices(std::span<const std::int32_t> depth) {
     throw SubjectError(LC_NOT_SUPPORTED, "more vertices at these depths than 32-bit indices can name");
 }
 
-// Allocates the output of a frame and copies it.
 //   corners   the scheme is Catmull-Clark's, whose faces may be larger than quads
 template <class Real>
-void deliver(const lc_request& request, lc_tessellation& out,
-             const std::vector<fast::SurfaceVertex<Real>>& vertices,
-             const std::vector<fast::LatticePoint>& provenance, const std::vector<std::uint32_t>& triangles,
-             const std::vector<std::int32_t>& faces, bool corners) {
-  const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(vertices.size()),
-                                            static_cast<std::int64_t>(faces.size()), true, corners);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
-    const auto& [position, normal] = vertices[v];
+void hand_over(const fast::IndexedMesh<Real>& frame, const lc_request& request, lc_tessellation& out,
+               bool corners) {
+  const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(frame.vertices.size()),
+                                            static_cast<std::int64_t>(frame.triangles.size()), true, corners);
+  for (std::size_t v = 0; v < frame.vertices.size(); ++v) {
+    const auto& [position, normal] = frame.vertices[v];
     for (std::size_t i = 3 * v; const Real x : {position.x, position.y, position.z})
       output.positions[i++] = x;
     for (std::size_t i = 3 * v; const Real x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
-    output.provenance[v] = {provenance[v].face, provenance[v].i, provenance[v].j, provenance[v].denominator};
-    if (corners) output.corner[v] = provenance[v].corner;
+    const fast::LatticePoint& at = frame.provenance[v];
+    output.provenance[v] = {at.face, at.i, at.j, at.denominator};
+    if (corners) output.corner[v] = at.corner;
   }
-  std::copy(triangles.begin(), triangles.end(), output.triangles);
-  std::copy(faces.begin(), faces.end(), output.triangle_face);
+  for (std::size_t i = 0; const auto& triangle : frame.triangles)
+    for (const std::uint32_t v : triangle) output.triangles[i++] = v;
+  std::copy(frame.triangle_face.begin(), frame.triangle_face.end(), output.triangle_face);
 }
 
 // So many frames at other depths, where every fourth face has another one by 1, or is gone, at random; the
 // control points are at half their size in the first half of them.
-template <class Engine, class Real>
-void walk(Engine& engine, const data::ControlMesh& mesh, std::span<const std::int32_t> depth, int frames,
-          fast::PatchMesh<Real>& patches) {
+void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<const std::int32_t> depth,
+          int frames, fast::PatchMesh<float>& patches) {
   data::SplitMix64 random(static_cast<std::uint64_t>(frames));
   if (frames > 1) {
     std::vector<std::array<double, 3>> halved = mesh.positions;
@@ -152,17 +133,17 @@ void walk(Engine& engine, const data::ControlMesh& mesh, std::span<const std::in
   }
 }
 
-template <class Chosen>
+template <bool kWindow>
 class EngineSubject {
  public:
   static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
-    const Chosen chosen(options);
+    const Settings chosen(options, kWindow);
     const bool exact = chosen.tessellator.cracks.centre == fast::FanCentre::kLimit;
     lc_capabilities result{chosen.wide ? LC_FLOAT64 : LC_FLOAT32,
                            LC_WEIGHTS_LOOP,
                            LC_BOUNDARY_SPLINE,
                            LC_POINTS_LIMIT,
-                           Chosen::kMaxDepth,
+                           kWindow ? fast::kDeepest : rs::kMaxDepth,
                            1,
                            1,
                            exact ? 1 : 0};
@@ -172,7 +153,8 @@ class EngineSubject {
     return result;
   }
 
-  EngineSubject(const lc_mesh& mesh, Options& options) : chosen_(options), mesh_(control_mesh(mesh)) {
+  EngineSubject(const lc_mesh& mesh, Options& options)
+      : chosen_(options, kWindow), mesh_(control_mesh(mesh)) {
     chosen_.tessellator.scheme = scheme_of(mesh.scheme);
     use_threads(1);
   }
@@ -181,78 +163,83 @@ class EngineSubject {
     if (request.threads != chosen_.tessellator.threads) use_threads(request.threads);
     const std::span<const std::int32_t> depth(request.face_depth, mesh_.faces.size());
     refuse_too_many_vertices(depth);
-    if constexpr (Chosen::kDoubles)
-      if (double_) return run<double>(*double_, depth, request, out);
-    run<float>(*float_, depth, request, out);
+    const bool corners = chosen_.tessellator.scheme == data::Scheme::kCatmullClark;
+    if (chosen_.form == Form::kPatches)
+      hand_over(patches(depth), request, out, corners);
+    else if (double_)
+      hand_over(frame(*double_, depth), request, out, corners);
+    else
+      hand_over(frame(*float_, depth), request, out, corners);
   }
 
  private:
   void use_threads(int threads) {
     chosen_.tessellator.threads = threads;
+    const fast::TessellatorOptions& options = chosen_.tessellator;
     try {
-      if (chosen_.wide)
-        double_ = chosen_.template engine<double>(mesh_);
+      if (!kWindow)
+        float_ = std::make_shared<rs::StreamTessellator>(mesh_, options, *chosen_.kernel);
+      else if (chosen_.wide)
+        double_ = std::make_shared<fast::Tessellator<double>>(mesh_, options, chosen_.rules);
       else
-        float_ = chosen_.template engine<float>(mesh_);
+        float_ = std::make_shared<fast::Tessellator<float>>(mesh_, options, chosen_.rules);
     } catch (const data::ArgumentError& error) {
       throw SubjectError(LC_INVALID_INPUT, error.what());
     }
   }
 
   template <class Real>
-  void run(fast::Engine<Real>& engine, std::span<const std::int32_t> depth, const lc_request& request,
-           lc_tessellation& out) {
-    const bool corners = chosen_.tessellator.scheme == data::Scheme::kCatmullClark;
-    std::vector<std::uint32_t> triangles;
-    std::vector<std::int32_t> faces;
+  fast::IndexedMesh<Real> frame(fast::Engine<Real>& engine, std::span<const std::int32_t> depth) const {
+    fast::IndexedMesh<Real> frame;
     if (chosen_.form == Form::kIndexed) {
-      fast::IndexedMesh<Real> mesh;
-      engine.frame(depth, mesh);
-      for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
-      return deliver(request, out, mesh.vertices, mesh.provenance, triangles, mesh.triangle_face, corners);
+      engine.frame(depth, frame);
+      return frame;
     }
-    if (chosen_.form == Form::kStrips) {
-      fast::DrawList<Real> list;
-      engine.frame(depth, list);
-      for (const fast::Draw& draw : list.draws)
-        for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
-          faces.push_back(draw.face_of(t));
-          for (const std::int32_t v : draw.triangle(t))
-            triangles.push_back(static_cast<std::uint32_t>(draw.first + v));
-        }
-      return deliver(request, out, list.vertices, list.provenance, triangles, faces, corners);
-    }
-    if constexpr (std::is_same_v<Real, float>) {
-      walk(engine, mesh_, depth, chosen_.frames, patches_);
-      engine.frame(depth, patches_);
-      // Vertices that no triangle has, such as those of patches that are not shown, are left out.
-      constexpr std::uint32_t kUnused = UINT32_MAX;
-      std::vector<fast::SurfaceVertex<Real>> vertices;
-      std::vector<fast::LatticePoint> provenance;
-      std::vector<std::uint32_t> number;
-      for (const fast::PatchDraw& draw : patches_.draws()) {
-        number.assign(static_cast<std::size_t>(draw.vertex_count), kUnused);
-        for (std::uint32_t i = 0; i < draw.index_count; ++i) {
-          const std::uint32_t v = patches_.indices()[draw.first_index + i];
-          if (number[v] == kUnused) {
-            const auto at = static_cast<std::size_t>(draw.base_vertex) + v;
-            number[v] = static_cast<std::uint32_t>(vertices.size());
-            vertices.push_back(patches_.vertices()[at]);
-            provenance.push_back(patches_.provenance()[at]);
-          }
-          triangles.push_back(number[v]);
-        }
-        for (std::int32_t t = 0; t < draw.triangles; ++t)
-          faces.push_back(t < draw.split ? draw.face : draw.face_after);
+    fast::DrawList<Real> list;
+    engine.frame(depth, list);
+    for (const fast::Draw& draw : list.draws)
+      for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
+        frame.triangle_face.push_back(draw.face_of(t));
+        auto& triangle = frame.triangles.emplace_back();
+        for (std::size_t k = 0; const std::int32_t v : draw.triangle(t))
+          triangle[k++] = static_cast<std::uint32_t>(draw.first + v);
       }
-      deliver(request, out, vertices, provenance, triangles, faces, corners);
-    }
+    frame.vertices = std::move(list.vertices);
+    frame.provenance = std::move(list.provenance);
+    return frame;
   }
 
-  Chosen chosen_;
+  // Vertices that no triangle has, such as those of patches that are not shown, are left out.
+  fast::IndexedMesh<float> patches(std::span<const std::int32_t> depth) {
+    walk(*float_, mesh_, depth, chosen_.frames, patches_);
+    float_->frame(depth, patches_);
+    constexpr std::uint32_t kUnused = UINT32_MAX;
+    fast::IndexedMesh<float> frame;
+    std::vector<std::uint32_t> number;
+    for (const fast::PatchDraw& draw : patches_.draws()) {
+      number.assign(static_cast<std::size_t>(draw.vertex_count), kUnused);
+      for (std::uint32_t i = 0; i < draw.index_count; ++i) {
+        const std::uint32_t v = patches_.indices()[draw.first_index + i];
+        if (number[v] == kUnused) {
+          const auto at = static_cast<std::size_t>(draw.base_vertex) + v;
+          number[v] = static_cast<std::uint32_t>(frame.vertices.size());
+          frame.vertices.push_back(patches_.vertices()[at]);
+          frame.provenance.push_back(patches_.provenance()[at]);
+        }
+        if (i % 3 == 0) frame.triangles.emplace_back();
+        frame.triangles.back()[i % 3] = number[v];
+      }
+      for (std::int32_t t = 0; t < draw.triangles; ++t)
+        frame.triangle_face.push_back(t < draw.split ? draw.face : draw.face_after);
+    }
+    return frame;
+  }
+
+  Settings chosen_;
   data::ControlMesh mesh_;
-  std::unique_ptr<typename Chosen::template Engine<float>> float_;
-  std::unique_ptr<typename Chosen::template Engine<double>> double_;
+  // The one that the settings ask for; shared because only its own type can be deleted.
+  std::shared_ptr<fast::Engine<float>> float_;
+  std::shared_ptr<fast::Engine<double>> double_;
   fast::PatchMesh<float> patches_{fast::PatchOptions{.incremental = true}};
 };
 
@@ -272,7 +259,7 @@ class NullSubject {
 }  // namespace
 
 const lc_subject* lc_subject_sliding_window() {
-  static const lc_subject subject = make_subject<EngineSubject<WindowSettings>>(
+  static const lc_subject subject = make_subject<EngineSubject<true>>(
       "sliding-window",
       "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
       "precision=float|double, output=strips|indexed, repair=stitch|fan|none, "
@@ -281,7 +268,7 @@ const lc_subject* lc_subject_sliding_window() {
 }
 
 const lc_subject* lc_subject_row_stream() {
-  static const lc_subject subject = make_subject<EngineSubject<StreamSettings>>(
+  static const lc_subject subject = make_subject<EngineSubject<false>>(
       "row-stream",
       "limitcheck's row streaming: one grid per vector lane, shared points bit-identical; both schemes",
       "output=strips|indexed|patches, frames=N (patches, after a walk of N frames), repair=stitch|fan|none, "

@@ -134,19 +134,13 @@ class FarPatchesSubject {
   static constexpr std::int32_t kSharp = kOpenSubdivSharp;
 
   static lc_capabilities capabilities(Options& options, lc_scheme) {
-    return {settings(options).wide ? LC_FLOAT64 : LC_FLOAT32,
-            LC_WEIGHTS_LOOP,
-            boundary_of(options),
-            LC_POINTS_LIMIT,
-            10,
-            1,
-            1,
-            0};
+    const auto precision = Settings(options).wide ? LC_FLOAT64 : LC_FLOAT32;
+    return {precision, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
   }
 
   FarPatchesSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
-        settings_(settings(options)),
+        settings_(options),
         refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh, options))) {
     const Settings& s = settings_;
     const OpenSubdivErrors errors;
@@ -172,25 +166,17 @@ class FarPatchesSubject {
 
  private:
   struct Settings {
-    bool wide, bspline, legacy_corners, infinite_creases, single_crease, stencils;
+    explicit Settings(Options& options)
+        : wide(options.choice("precision", {"float", "double"}) == 1),
+          bspline(options.choice("end-cap", {"gregory", "bspline"}) == 1),
+          legacy_corners(options.choice("corners", {"legacy", "smooth"}) == 0),
+          stencils(options.choice("evaluate", {"patches", "limit-stencils"}) == 1),
+          infinite_creases(options.choice("inf-sharp", {"off", "on"}) == 1),
+          single_crease(options.choice("single-crease", {"off", "on"}) == 1),
+          level(options.integer("level", 2, 1, 10)) {}
+    bool wide, bspline, legacy_corners, stencils, infinite_creases, single_crease;
     int level;
   };
-  static Settings settings(Options& options) {
-    const bool wide = options.choice("precision", {"float", "double"}) == 1;
-    const bool bspline = options.choice("end-cap", {"gregory", "bspline"}) == 1;
-    const bool legacy_corners = options.choice("corners", {"legacy", "smooth"}) == 0;
-    const bool stencils = options.choice("evaluate", {"patches", "limit-stencils"}) == 1;
-    const bool infinite_creases = options.choice("inf-sharp", {"off", "on"}) == 1;
-    const bool single_crease = options.choice("single-crease", {"off", "on"}) == 1;
-    (void)without_boundary(options);
-    return {wide,
-            bspline,
-            legacy_corners,
-            infinite_creases,
-            single_crease,
-            stencils,
-            options.integer("level", 2, 1, 10)};
-  }
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {

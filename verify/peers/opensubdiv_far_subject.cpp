@@ -6,12 +6,10 @@
 // values at depth 0 mean nothing.
 #include <opensubdiv/far/primvarRefiner.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
@@ -25,17 +23,17 @@ namespace Far = OpenSubdiv::Far;
 template <class Real>
 using Vector = OpenSubdivVector<Real>;
 
+using Steps = std::array<std::uint32_t, 2>;
+
+Steps sum(const Steps& a, const Steps& b) {
+  return {a[0] + b[0], a[1] + b[1]};
+}
+
 // Where the corners of a refined face lie on its control face, in units of 1 / denominator of the part.
 struct RefinedFace {
   std::int32_t control_face, part;
   std::uint32_t denominator;
-  std::array<std::array<std::uint32_t, 2>, 4> at;
-};
-
-// A vertex of the next level, and where it lies on this level's face in halves of its units.
-struct Child {
-  int vertex;
-  std::array<std::uint32_t, 2> at;
+  std::array<Steps, 4> at;
 };
 
 class FarSubject {
@@ -107,108 +105,69 @@ class FarSubject {
       for (std::size_t c = 0; c < 3; ++c) output.normals[3 * v + c] = n[c] / length;
     }
 
+    const std::array<Steps, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, triangle{{{0, 0}, {1, 0}, {0, 1}}};
     std::int64_t written = 0;
-    for (std::int32_t face = 0; face < mesh_.face_count; ++face) begin(face, depth, output, written);
+    for (std::int32_t face = 0; face < mesh_.face_count; ++face)
+      descend(face, 0, depth, {face, 0, 1, quads ? square : triangle}, output, written);
   }
 
-  // All of one control face.
-  template <class Real>
-  void begin(std::int32_t face, int depth, const Output<Real>& output, std::int64_t& written) const {
-    const Far::TopologyLevel& control = refiner_->GetLevel(0);
-    const auto corners = control.GetFaceVertices(face);
-    if (mesh_.scheme == LC_SCHEME_LOOP) {
-      descend(face, 0, depth, {face, 0, 1, {{{0, 0}, {1, 0}, {0, 1}}}}, output, written);
-    } else if (corners.size() == 4) {
-      descend(face, 0, depth, {face, 0, 1, kSquare}, output, written);
-    } else if (depth == 0) {
-      for (int k = 0; k < corners.size(); ++k) name(corners[k], {face, k, 1, kSquare}, {0, 0}, output);
-      for (int k = 1; k + 1 < corners.size(); ++k)
-        write(face, {corners[0], corners[k], corners[k + 1]}, output, written);
-    } else {
-      const auto edges = control.GetFaceEdges(face);
-      const auto children = control.GetFaceChildFaces(face);
-      for (int c = 0; c < children.size(); ++c) {
-        const auto child_corners = refiner_->GetLevel(1).GetFaceVertices(children[c]);
-        int k = 0;  // the corner that it lies at
-        while (k < corners.size() && !contains(child_corners, control.GetVertexChildVertex(corners[k]))) ++k;
-        if (k == corners.size())
-          throw SubjectError(LC_FAILED, "a part of a face that lies at none of its corners");
-        const int previous = k == 0 ? corners.size() - 1 : k - 1;
-        const std::array<Child, 4> candidates{{{control.GetVertexChildVertex(corners[k]), {0, 0}},
-                                               {control.GetEdgeChildVertex(edges[k]), {1, 0}},
-                                               {control.GetFaceChildVertex(face), {1, 1}},
-                                               {control.GetEdgeChildVertex(edges[previous]), {0, 1}}}};
-        descend(children[c], 1, depth, child_of({face, k, 1, {}}, child_corners, candidates), output,
-                written);
-      }
-    }
-  }
-
-  // Writes the triangles into which `face` of `level` is divided at `depth`, and the provenance of their
-  // corners. A child's corner is the child of a corner, of an edge or of the face of its parent: that says
-  // where it lies, whatever the library's order of children is.
+  // Writes the triangles into which `face` of `level` is divided at `depth`, and the provenance of their corners.
   template <class Real>
   void descend(int face, int level, int depth, const RefinedFace& here, const Output<Real>& output,
                std::int64_t& written) const {
-    const Far::TopologyLevel& topology = refiner_->GetLevel(level);
-    const auto corners = topology.GetFaceVertices(face);
-    const auto count = static_cast<std::size_t>(corners.size());
-    if (level == depth) {
-      for (std::size_t k = 0; k < count; ++k) name(corners[static_cast<int>(k)], here, here.at[k], output);
-      write(here.control_face, {corners[0], corners[1], corners[2]}, output, written);
-      if (count == 4) write(here.control_face, {corners[0], corners[2], corners[3]}, output, written);
+    const auto corners = refiner_->GetLevel(level).GetFaceVertices(face);
+    if (level < depth) {
+      const auto children = refiner_->GetLevel(level).GetFaceChildFaces(face);
+      for (int c = 0; c < children.size(); ++c)
+        descend(children[c], level + 1, depth, child_of(face, level, here, children[c]), output, written);
       return;
     }
-    const auto edges = topology.GetFaceEdges(face);
-    std::array<Child, 9> candidates{};
-    const auto middle = [](const auto& a, const auto& b) {
-      return std::array<std::uint32_t, 2>{a[0] + b[0], a[1] + b[1]};
-    };
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto& a = here.at[k];
-      const auto i = static_cast<int>(k);
-      candidates[k] = {topology.GetVertexChildVertex(corners[i]), middle(a, a)};
-      candidates[k + count] = {topology.GetEdgeChildVertex(edges[i]), middle(a, here.at[(k + 1) % count])};
-    }
-    if (count == 4) candidates[8] = {topology.GetFaceChildVertex(face), middle(here.at[0], here.at[2])};
-    const auto children = topology.GetFaceChildFaces(face);
-    const RefinedFace finer{here.control_face, here.part, 2 * here.denominator, {}};
-    for (int c = 0; c < children.size(); ++c) {
-      const auto child_corners = refiner_->GetLevel(level + 1).GetFaceVertices(children[c]);
-      const std::span known(candidates.data(), count == 4 ? 9 : 6);
-      descend(children[c], level + 1, depth, child_of(finer, child_corners, known), output, written);
-    }
-  }
-
-  static bool contains(const Far::ConstIndexArray& vertices, int vertex) {
-    return std::find(vertices.begin(), vertices.end(), vertex) != vertices.end();
-  }
-  static RefinedFace child_of(RefinedFace child, const Far::ConstIndexArray& corners,
-                              std::span<const Child> known) {
+    const bool parts = has_parts(corners.size());
     for (int k = 0; k < corners.size(); ++k) {
-      const auto match = std::find_if(known.begin(), known.end(),
-                                      [&](const Child& candidate) { return candidate.vertex == corners[k]; });
-      if (match == known.end())
-        throw SubjectError(LC_FAILED, "a refined vertex is the child of no vertex, edge or face of its face");
-      child.at[static_cast<std::size_t>(k)] = match->at;
+      const Steps at = parts ? Steps{} : here.at[static_cast<std::size_t>(k)];
+      output.provenance[corners[k]] = {here.control_face, at[0], at[1], here.denominator};
+      if (output.corner != nullptr) output.corner[corners[k]] = parts ? k : here.part;
     }
-    return child;
-  }
-  template <class Real>
-  static void name(int vertex, const RefinedFace& face, const std::array<std::uint32_t, 2>& at,
-                   const Output<Real>& output) {
-    output.provenance[vertex] = {face.control_face, at[0], at[1], face.denominator};
-    if (output.corner != nullptr) output.corner[vertex] = face.part;
-  }
-  template <class Real>
-  static void write(std::int32_t control_face, const std::array<int, 3>& corners, const Output<Real>& output,
-                    std::int64_t& written) {
-    for (std::size_t k = 0; k < 3; ++k)
-      output.triangles[3 * written + static_cast<std::int64_t>(k)] = static_cast<std::uint32_t>(corners[k]);
-    output.triangle_face[written++] = control_face;
+    for (int k = 1; k + 1 < corners.size(); ++k) {
+      std::uint32_t* const triangle = output.triangles + 3 * written;
+      for (std::size_t c = 0; const int corner : {corners[0], corners[k], corners[k + 1]})
+        triangle[c++] = static_cast<std::uint32_t>(corner);
+      output.triangle_face[written++] = here.control_face;
+    }
   }
 
-  static constexpr std::array<std::array<std::uint32_t, 2>, 4> kSquare{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  // A corner of a child is the child of a corner, of an edge or of the face of its parent: that says where it lies,
+  // whatever the library's order of children is.
+  RefinedFace child_of(int face, int level, const RefinedFace& here, int child) const {
+    const Far::TopologyLevel& topology = refiner_->GetLevel(level);
+    const auto corners = topology.GetFaceVertices(face), edges = topology.GetFaceEdges(face);
+    const auto own = refiner_->GetLevel(level + 1).GetFaceVertices(child);
+    const int n = corners.size();
+    const bool parts = has_parts(n);
+    int first = 0;  // the corner that a part lies at
+    while (parts && first < n && own.FindIndex(topology.GetVertexChildVertex(corners[first])) < 0) ++first;
+    if (first == n) throw SubjectError(LC_FAILED, "a part of a face that lies at none of its corners");
+    const int next = (first + 1) % n, previous = (first + n - 1) % n;
+    // Of a part the corners beside its own are one step away.
+    const auto at = [&](int k) {
+      if (!parts) return here.at[static_cast<std::size_t>(k)];
+      return Steps{k == next ? 1U : 0U, k == previous ? 1U : 0U};
+    };
+    const auto place = [&](int vertex) {
+      for (int k = 0; k < n; ++k) {
+        if (vertex == topology.GetVertexChildVertex(corners[k])) return sum(at(k), at(k));
+        if (vertex == topology.GetEdgeChildVertex(edges[k])) return sum(at(k), at((k + 1) % n));
+      }
+      if (vertex == topology.GetFaceChildVertex(face)) return sum(at(next), at(previous));
+      throw SubjectError(LC_FAILED, "a refined vertex is the child of no vertex, edge or face of its face");
+    };
+    RefinedFace finer{here.control_face, parts ? first : here.part, parts ? 1 : 2 * here.denominator, {}};
+    for (int k = 0; k < own.size(); ++k) finer.at[static_cast<std::size_t>(k)] = place(own[k]);
+    return finer;
+  }
+
+  // Whether a face has a part at each of its corners: Catmull-Clark's of other sizes than four.
+  bool has_parts(int corners) const { return mesh_.scheme == LC_SCHEME_CATMULL_CLARK && corners != 4; }
 
   const lc_mesh mesh_;
   const bool wide_, bare_;

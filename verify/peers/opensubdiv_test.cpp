@@ -1,154 +1,249 @@
 // SPDX-License-Identifier: MIT
-// The OpenSubdiv adapters against the reference; and OpenSubdiv's known faults, which the adapters must hand
-// on as they are.
+// The reference's refinement against OpenSubdiv's, both schemes, with sharp edges and vertices and without; and where
+// OpenSubdiv is known to differ.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numbers>
+#include <cstdio>
+#include <map>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
-#include "verify/peers/test_lattice.h"
-#include "verify/subject/registry.h"
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/named_mesh.h"
+#include "data/generators/polygon_meshes.h"
+#include "data/generators/random_mesh.h"
+#include "data/generators/sharp_meshes.h"
+#include "data/io/read.h"
+#include "data/io/write.h"
+#include "data/shapes.h"
+#include "data/splitmix64.h"
+#include "verify/peers/test_far_mesh.h"
+#include "verify/peers/test_sharp_shapes.h"
 
+namespace limitcheck::verify {
 namespace {
 
-using namespace limitcheck;
-using namespace limitcheck::verify;
-using namespace limitcheck::verify::test;
+using namespace test;
+namespace Far = OpenSubdiv::Far;
 
-using Expected = test::Expected<data::Scheme::kLoop>;
+// The largest differences between both.
+struct Differences {
+  double refined = 0, limit = 0;  // over the largest coordinate
+  double normal = 0;              // degrees
+  double other_rule = 0;          // the same where the mask across a boundary is that of another rule
+  std::int64_t limits = 0, normals = 0;
 
-// Of a boundary vertex of four faces or more, by OpenSubdiv's mask for the tangent across (D4): the ends of the ring
-// weigh sin(theta) / (2 cos(theta) - 2), theta = pi / faces, those between sin(k theta).
-Vector normal_by_the_other_mask(const Expected& expected, std::int32_t v) {
-  const auto ring = expected.refined().topology().ring(v);
-  const double theta = std::numbers::pi / static_cast<double>(ring.size() - 1);
-  const auto at = [&](std::size_t k) { return expected.point(ring[k], LC_POINTS_REFINED); };
-  Vector across = std::sin(theta) / (2 * std::cos(theta) - 2) * (at(0) + at(ring.size() - 1));
-  for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-    across = across + std::sin(static_cast<double>(k) * theta) * at(k);
-  return cross(at(0) - at(ring.size() - 1), across);
-}
-
-struct Deviation {
-  double position = 0;                              // of the box
-  double interior_normal = 0, boundary_normal = 0;  // degrees; 180 for NaN
+  void add(const Differences& d) {
+    refined = std::max(refined, d.refined), limit = std::max(limit, d.limit),
+    normal = std::max(normal, d.normal), other_rule = std::max(other_rule, d.other_rule);
+    limits += d.limits, normals += d.normals;
+  }
 };
 
-void record_all(const Deviation& worst) {
-  record("position_of_the_box", worst.position);
-  record("interior_normal_degrees", worst.interior_normal);
-  record("boundary_normal_degrees", worst.boundary_normal);
-}
+// The points of so many steps. With limits, those of the last as well, where OpenSubdiv's masks are those of
+// the surface: not at darts; and normals not on edges that stay sharp, where it has one of several, nor where
+// the mask across a boundary is that of another rule, nor where there is none.
+template <class Refined>
+Differences differences(const data::ControlMesh& mesh, int depth, bool with_limits) {
+  const FarMesh<Refined> far(mesh, depth, with_limits);
+  const double largest = largest_of(mesh);
+  Differences worst;
+  worst.refined = far.worst / largest;
+  if (!with_limits) return worst;
 
-// Worst deviation from the reference. Boundary vertices of four faces or more are left out, and those of one
-// face where the subject is known to fail: they have tests of their own.
-Deviation deviation(const char* subject, const char* options, const data::ControlMesh& mesh, int depth,
-                    bool one_face) {
-  const Expected expected(mesh, depth);
-  Session session(*find_subject(subject), mesh, options);
-  const Tessellation t = session.tessellate(depth);
-  Deviation worst;
-  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    const std::int32_t at = expected.vertex(t.place(v));
-    worst.position = std::max(worst.position, distance(t.position(v), expected.point(at, LC_POINTS_LIMIT)) /
-                                                  data::box_diagonal(mesh));
-    const std::size_t faces = expected.boundary_faces(at);
-    if (faces > 3 || (faces == 1 && !one_face)) continue;
-    const double a = angle_degrees(t.normal(v), expected.normal(at));
-    double& normal = faces > 0 ? worst.boundary_normal : worst.interior_normal;
-    normal = std::max(normal, std::isfinite(a) ? a : 180);
+  const auto limits = far.ours.limits();
+  for (std::size_t v = 0; v < far.limits.size(); ++v) {
+    using Rule = OpenSubdiv::Sdc::Crease;
+    if (far.rule[v] == Rule::RULE_DART) continue;
+    worst.limit = std::max(worst.limit, magnitude(limits.positions[v] - far.limits[v]) / largest);
+    ++worst.limits;
+    const auto sector = far.ours.topology().sector(static_cast<std::int32_t>(v));
+    const std::size_t right = sector.closed                      ? 0
+                              : far.rule[v] == Rule::RULE_CORNER ? 1
+                              : std::is_same_v<Refined, Quads>   ? 2
+                                                                 : 3;
+    const bool one_side = sector.closed ? far.rule[v] == Rule::RULE_SMOOTH : sector.faces.size() <= right;
+    if (limits.kinds[v] != reference::NormalKind::kRegular) continue;
+    const double turned = degrees(limits.normals[v], far.normals[v]);
+    if (!sector.closed && !one_side) worst.other_rule = std::max(worst.other_rule, turned);
+    if (!one_side) continue;
+    worst.normal = std::max(worst.normal, turned);
+    ++worst.normals;
   }
   return worst;
 }
-
-// 1e-14 of the box is what the exact reference is held to; worst seen 3e-16. Normals lose digits with the
-// square of the edge length, 1e-9 degrees at depth 3.
-TEST(OpenSubdivFar, DeliversLimitPositionsAndNormals) {
-  Deviation worst;
-  for (const auto& [name, mesh] : shapes()) {
-    const Deviation d = deviation("opensubdiv-far", "precision=double", mesh, 3, true);
-    EXPECT_LE(d.position, 1e-14) << name;
-    EXPECT_LE(d.interior_normal, 1e-9) << name;
-    EXPECT_LE(d.boundary_normal, 1e-9) << name;
-    worst = {std::max(worst.position, d.position), std::max(worst.interior_normal, d.interior_normal),
-             std::max(worst.boundary_normal, d.boundary_normal)};
-  }
-  record_all(worst);
+template <class Refined>
+double worst_difference(const data::ControlMesh& mesh, int depth) {
+  return differences<Refined>(mesh, depth, false).refined;
 }
 
-TEST(OpenSubdivBfr, IsExactAtLatticePointsWhenApproximatedToTheirDepth) {
-  Deviation worst;
-  for (const auto& [name, mesh] : shapes()) {
-    const Deviation d = deviation("opensubdiv-bfr", "precision=double,approx-level=3", mesh, 3, false);
-    EXPECT_LE(d.position, 1e-14) << name;
-    EXPECT_LE(d.interior_normal, 1e-9) << name;
-    worst = {std::max(worst.position, d.position), std::max(worst.interior_normal, d.interior_normal),
-             std::max(worst.boundary_normal, d.boundary_normal)};
-  }
-  record_all(worst);
+// 4 units of the last place; a normal has lost three bits with each of three steps and more on a steep mesh.
+void expect_a_few_ulp(const Differences& d) {
+  std::printf("units of the last place: refined %.2f, %lld limits %.2f; %lld normals %.1e degrees\n",
+              d.refined * 0x1p52, static_cast<long long>(d.limits), d.limit * 0x1p52,
+              static_cast<long long>(d.normals), d.normal);
+  EXPECT_LE(d.refined, 4 * 0x1p-52);
+  EXPECT_LE(d.limit, 4 * 0x1p-52);
+  EXPECT_LE(d.normal, 1e-9);
+  EXPECT_GT(d.normals, 1000);
 }
 
-TEST(OpenSubdivBfr, IsAnApproximationAtItsDefaultLevel) {
-  const Deviation d =
-      deviation("opensubdiv-bfr", "precision=double", data::named_mesh("bumpy:800"), 3, false);
-  EXPECT_GT(d.position, 1e-3);
-  EXPECT_LT(d.position, 5e-3);
-  EXPECT_GT(d.interior_normal, 1);
+TEST(SmoothMeshes_OpenSubdiv, IsTheReferenceOnQuadsAndPolygons) {
+  std::vector<data::ControlMesh> meshes{data::quad_cube(), data::quad_torus(6, 5),
+                                        data::dual(data::named_mesh("bumpy:4000"))};
+  for (const int n : {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 50}) meshes.push_back(data::quad_wheel(n, 7));
+  for (int k = 1; k <= 6; ++k) meshes.push_back(data::quad_fan(k, 11));
+  for (int n = 3; n <= 8; ++n) meshes.push_back(data::polygon_prism(n));
+  Differences worst;
+  for (const auto& mesh : meshes)
+    for (int depth = 1; depth <= 3; ++depth) worst.add(differences<Quads>(mesh, depth, true));
+  expect_a_few_ulp(worst);
+  EXPECT_GT(worst.other_rule, 0.5);
 }
 
-TEST(OpenSubdivBfr, ComputesSharedPointsWithOtherBitsInEachFace) {
-  const auto mesh = data::named_mesh("bumpy:800");
-  Session session(*lc_subject_opensubdiv_bfr(), mesh);
-  const Tessellation t = session.tessellate(4);
-  std::int64_t shared = 0, positions = 0, normals = 0;
-  const auto differ = [](auto a, auto b) { return std::memcmp(a.data(), b.data(), a.size()) != 0; };
-  for (const auto& [place, vertices] : places(mesh, t)) {
-    if (vertices.size() < 2) continue;
-    ++shared;
-    const std::int64_t first = vertices[0];
-    positions += std::any_of(vertices.begin(), vertices.end(), [&](std::int64_t v) {
-      return differ(t.position_bits(v), t.position_bits(first));
-    });
-    normals += std::any_of(vertices.begin(), vertices.end(),
-                           [&](std::int64_t v) { return differ(t.normal_bits(v), t.normal_bits(first)); });
-  }
-  EXPECT_EQ(shared, 402 + 1200 * 15);
-  EXPECT_GT(static_cast<double>(positions), 0.8 * static_cast<double>(shared));
-  EXPECT_GT(static_cast<double>(normals), 0.99 * static_cast<double>(shared));
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnCubesWithAnyOfTheirEdgesSharp) {
+  Differences worst;
+  for (unsigned subset = 0; subset < 4096; ++subset)
+    for (const bool semi_sharp : {false, true})
+      worst.add(differences<Quads>(test::cube_with(subset, semi_sharp), 3, true));
+  expect_a_few_ulp(worst);
 }
 
-// sdc/loopScheme.h takes the across-tangent of another boundary rule (D4) for vertices of more than three
-// faces. The adapter hands that on; up to three faces it is the tangent of the rule in use (D2).
-TEST(OpenSubdivFar, UsesATangentMaskOfAnotherRuleAtBoundaryVerticesOfFourFacesOrMore) {
-  for (int faces = 1; faces <= 8; ++faces) {
-    const auto mesh = data::named_mesh("fan:" + std::to_string(faces));
-    const Expected expected(mesh, 1);
-    ASSERT_EQ(expected.boundary_faces(0), static_cast<std::size_t>(faces));
-    Session session(*lc_subject_opensubdiv_far(), mesh, "precision=double");
-    const Tessellation t = session.tessellate(1);
-    const Vector normal = t.normal(places(mesh, t).at({0, 0, 0, 0, 0})[0]);
-    const double to_rule = angle_degrees(normal, expected.normal(0));
-    const double to_other =
-        faces > 3 ? angle_degrees(normal, normal_by_the_other_mask(expected, 0)) : to_rule;
-    EXPECT_LE(to_other, 1e-10) << faces << " faces";
-    EXPECT_EQ(to_rule > 0.1, faces > 3) << faces << " faces: " << to_rule;
-    record("degrees_at_" + std::to_string(faces) + "_faces", to_rule);
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfPolygons) {
+  Differences worst;
+  for (const auto& [name, mesh] : test::sharp_polygons()) {
+    const Differences d = differences<Quads>(mesh, 3, true);
+    EXPECT_LE(std::max(d.refined, d.limit), 4 * 0x1p-52) << name;
+    worst.add(d);
   }
+  expect_a_few_ulp(worst);
 }
 
-TEST(OpenSubdivBfr, HasNoNormalAtABoundaryVertexOfOneFace) {
-  const auto mesh = data::named_mesh("triangle");
-  Session session(*lc_subject_opensubdiv_bfr(), mesh);
-  const Tessellation t = session.tessellate(2);
-  const Expected expected(mesh, 2);
-  for (int corner = 0; corner < 3; ++corner) {
-    const PointName at{0, corner, 0, 0, 0};
-    const double a = angle_degrees(t.normal(places(mesh, t).at(at)[0]), expected.normal(corner));
-    EXPECT_FALSE(a < 1) << "corner " << corner << ": " << a;  // wrong, or none
-    record("degrees_at_corner_" + std::to_string(corner), a);
+TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfTriangles) {
+  Differences worst, smooth;
+  for (auto& [name, mesh] : test::sharp_triangles()) {
+    const Differences d = differences<Triangles>(mesh, 3, true);
+    EXPECT_LE(std::max(d.refined, d.limit), 4 * 0x1p-52) << name;
+    worst.add(d);
+    mesh.sharpness.triangles = data::TriangleRule::kSmooth;
+    smooth.add(differences<Quads>(mesh, 3, true));
   }
+  expect_a_few_ulp(worst);
+  expect_a_few_ulp(smooth);
+}
+
+// Sharpnesses are multiples of 1/16, which OpenSubdiv's floats hold at every level.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithUniformCreasing) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kUniform;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+    mesh.sharpness.triangles = data::TriangleRule::kSmooth;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 2));
+    mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kUniform;
+    worst = std::max(worst, worst_difference<Triangles>(mesh, 5));
+  }
+  for (const auto& mesh : {data::creased_cube(2), data::creased_cube(10), data::dart(5, false),
+                           data::corner(3, false), data::crease_ring(4)})
+    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+  std::printf("units of the last place: %.2f\n", worst * 0x1p52);
+  EXPECT_LE(worst, 8 * 0x1p-52);
+}
+
+// Chaikin's means are rounded to float there; 1e-7 of the weights.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithChaikinsUpToItsFloats) {
+  double worst = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
+    mesh.sharpness.creasing = data::Creasing::kChaikin;
+    // Below 1: above, OpenSubdiv's weights of edges are wrong (see below).
+    for (auto& e : mesh.sharpness.edges)
+      if (e.sharpness < 10) e.sharpness /= 4;
+    worst = std::max(worst, worst_difference<Quads>(mesh, 4));
+    auto triangles = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
+    triangles.sharpness.creasing = data::Creasing::kChaikin;
+    for (auto& e : triangles.sharpness.edges)
+      if (e.sharpness < 10) e.sharpness /= 4;
+    worst = std::max(worst, worst_difference<Triangles>(triangles, 4));
+  }
+  std::printf("largest difference: %.1e\n", worst);
+  EXPECT_LE(worst, 1e-6);
+}
+
+// An edge of a sharpness above 1 with a child edge of sharpness 0: OpenSubdiv weighs the midpoint with the
+// sharpness, 1.225 here, and the smooth point with what is missing to 1, -0.225. The rule is the midpoint.
+TEST(SharpEdges_OpenSubdiv, WeighAnEdgeWithMoreThanOneByChaikinsRule) {
+  data::ControlMesh mesh = data::quad_wheel(4, 301);
+  const auto spoke = [&](std::size_t f) {
+    const auto face = mesh.faces[f];
+    const auto at = static_cast<std::size_t>(std::find(face.begin(), face.end(), 0) - face.begin());
+    return face[(at + 1) % 4];
+  };
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (std::find(mesh.faces[f].begin(), mesh.faces[f].end(), 0) != mesh.faces[f].end()) faces.push_back(f);
+  ASSERT_EQ(faces.size(), 4U);
+  mesh.sharpness.edges = {{0, spoke(faces[0]), 2.7F}, {0, spoke(faces[2]), 0.8F}};
+  mesh.sharpness.creasing = data::Creasing::kChaikin;
+  EXPECT_LE(worst_difference<Quads>(mesh, 1), 1e-7);
+  EXPECT_GT(worst_difference<Quads>(mesh, 2), 1e-4);
+  mesh.sharpness.creasing = data::Creasing::kUniform;
+  EXPECT_LE(worst_difference<Quads>(mesh, 4), 1e-7);
+}
+
+// What a file hides with `interpolateboundary 0` is what OpenSubdiv hides with VTX_BOUNDARY_NONE, and the
+// points are those of the boundary rule that it is read with.
+TEST(SharpPeers, FacesBesideABoundaryThatIsNotInterpolatedAreThoseThatOpenSubdivHides) {
+  data::SplitMix64 random(5);
+  std::int64_t hidden = 0, shown = 0;
+  for (const bool quads : {false, true})
+    for (int seed = 1; seed <= 20; ++seed) {
+      data::ControlMesh mesh = quads ? data::mixed_mesh(static_cast<std::uint64_t>(seed), {60, 12})
+                                     : data::random_mesh(static_cast<std::uint64_t>(seed), {60, 12});
+      mesh.sharpness = {};
+      // Half of the boundary edges are sharp for good, or nearly.
+      std::map<std::pair<std::int32_t, std::int32_t>, int> faces;
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        for (std::size_t k = 0, n = mesh.faces[f].size(); k < n; ++k)
+          ++faces[std::minmax(mesh.faces[f][k], mesh.faces[f][(k + 1) % n])];
+      for (const auto& [edge, count] : faces)
+        if (count == 1 && random.next() % 8 > 1)
+          mesh.sharpness.edges.push_back({edge.first, edge.second, random.next() % 8 == 0 ? 9.5F : 10.F});
+      const data::ControlMesh read = data::read_mesh(
+          data::mesh_content(mesh, data::FileFormat::kObj) + "t interpolateboundary 1/0/0 0\n",
+          data::FileFormat::kObj, "mesh.obj");
+
+      const LentMesh lent(mesh, quads ? data::Scheme::kCatmullClark : data::Scheme::kLoop);
+      using Rules = OpenSubdiv::Sdc::Options;
+      const auto type = opensubdiv_scheme(lent.view());
+      const auto none = make_refiner(lent.view(), type, Rules::VTX_BOUNDARY_NONE),
+                 edge = make_refiner(lent.view(), type, Rules::VTX_BOUNDARY_EDGE_ONLY);
+      std::vector<std::int32_t> holes;
+      for (int f = 0; f < none->GetLevel(0).GetNumFaces(); ++f)
+        if (none->GetLevel(0).IsFaceHole(f)) holes.push_back(f);
+      EXPECT_EQ(read.holes, holes) << quads << " " << seed;
+      hidden += static_cast<std::int64_t>(holes.size());
+      shown += static_cast<std::int64_t>(mesh.faces.size() - holes.size());
+
+      std::vector<OpenSubdivVector<double>> control, points[2];
+      for (const auto& p : mesh.positions) control.push_back({p});
+      for (const bool is_none : {false, true}) {
+        const auto& refiner = is_none ? none : edge;
+        refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(1));
+        points[is_none].resize(static_cast<std::size_t>(refiner->GetLevel(1).GetNumVertices()));
+        Far::PrimvarRefinerReal<double>(*refiner).Interpolate(1, control, points[is_none]);
+      }
+      ASSERT_EQ(points[0].size(), points[1].size());
+      for (std::size_t v = 0; v < points[0].size(); ++v) EXPECT_EQ(points[0][v].x, points[1][v].x);
+    }
+  EXPECT_GT(hidden, 100);
+  EXPECT_GT(shown, 100);
 }
 
 }  // namespace
+}  // namespace limitcheck::verify

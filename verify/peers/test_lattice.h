@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Names of points by where they lie, the same from every face that touches a point; and what the reference says of
-// them. For tests of this folder.
+// What the reference says of the points of a mesh, and that a tessellation has each of them once. For tests of this
+// folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,16 +9,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <map>
 #include <set>
-#include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "data/bounding_box.h"
-#include "data/generators/named_mesh.h"
+#include "data/control_mesh.h"
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
 #include "verify/evidence/vector.h"
@@ -26,39 +22,6 @@
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify::test {
-
-/// Every interior valence class, every boundary situation, faces whose corners are all irregular.
-inline std::vector<std::pair<std::string, data::ControlMesh>> shapes() {
-  std::vector<std::pair<std::string, data::ControlMesh>> result;
-  for (const char* name : {"tetrahedron", "octahedron", "triangle", "strip:6", "wheel:3:1", "wheel:7:2",
-                           "fan:5:1", "fan:8:2", "ragged-disc", "holes", "two-components", "bumpy:200"}) {
-    result.emplace_back(name, data::named_mesh(name));
-  }
-  return result;
-}
-
-/// (kind, a, b, c, d): control vertex a; or on edge a < b, c / d from a; or in face a at (b, c) / d.
-using PointName = std::tuple<int, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
-
-inline PointName place(const data::ControlMesh& mesh, const lc_provenance& p) {
-  const auto& corners = triangles_of(mesh)[p.face];
-  const auto at = FaceDomain::triangle().side_of(point_of(p), p.denominator);
-  if (!at) return {2, p.face, p.i, p.j, p.denominator};
-  const auto a = corners[at->side], b = corners[FaceDomain::triangle().next(at->side)];
-  if (at->along == 0) return {0, a, 0, 0, 0};
-  return a < b ? PointName{1, a, b, at->along, p.denominator}
-               : PointName{1, b, a, p.denominator - at->along, p.denominator};
-}
-
-/// Every place and the vertices that lie there.
-inline std::map<PointName, std::vector<std::int64_t>> places(const data::ControlMesh& mesh,
-                                                             const Tessellation& t) {
-  std::map<PointName, std::vector<std::int64_t>> result;
-  for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
-    result[place(mesh, t.provenance()[v])].push_back(v);
-  }
-  return result;
-}
 
 /// The reference's values and names at one depth: each point of the mesh is a vertex of the refined one.
 template <data::Scheme scheme>
@@ -109,11 +72,6 @@ class Expected {
   Vector normal(std::int32_t v) const { return vector_of(limits_.normals[static_cast<std::size_t>(v)]); }
   bool has_normal(std::int32_t v) const {
     return limits_.kinds[static_cast<std::size_t>(v)] == reference::NormalKind::kRegular;
-  }
-  /// The number of faces at a boundary vertex, 0 inside.
-  std::size_t boundary_faces(std::int32_t v) const {
-    const auto sector = refined_.topology().sector(v);
-    return sector.closed ? 0 : sector.faces.size();
   }
 
  private:
@@ -178,17 +136,6 @@ void expect_full_lattice(const Expected<scheme>& expected, const Tessellation& t
                                          : of_part * n * n * d.parts())
         << "face " << f;
   }
-}
-
-inline double distance(const Vector& a, const Vector& b) {
-  return norm(a - b);
-}
-
-/// Keeps the worst value seen in the test's record.
-inline void record(const std::string& what, double worst) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", worst);
-  testing::Test::RecordProperty(what, text);
 }
 
 }  // namespace limitcheck::verify::test

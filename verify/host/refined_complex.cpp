@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "verify/subject/face_domain.h"
 
@@ -24,44 +24,32 @@ Vector mix(const Vector& a, const Vector& b, double t) {
 }  // namespace
 
 bool Cells::connect(std::int64_t vertices) {
-  const auto sides = static_cast<std::int64_t>(corners.size());
   cell_of.resize(corners.size());
   across.assign(corners.size(), -1);
   valence.assign(vertices, 0);
   on_boundary.assign(vertices, 0);
   for (std::int64_t c = 0; c < count(); ++c)
     std::fill(cell_of.begin() + first[c], cell_of.begin() + first[c + 1], static_cast<std::int32_t>(c));
-  for (std::int64_t s = 0; s < sides; ++s) {
+  // Sorted by their edges: of each edge the sides follow one another.
+  std::vector<std::pair<std::uint64_t, std::int64_t>> by_edge;
+  by_edge.reserve(corners.size());
+  for (std::int64_t s = 0; s < std::ssize(corners); ++s) {
     if (from(s) == to(s)) return false;
     ++valence[from(s)];
+    by_edge.emplace_back(edge_key(from(s), to(s)), s);
   }
-  // The sides that begin at each vertex, and those that end there.
-  std::vector<std::int64_t> at(static_cast<std::size_t>(vertices) + 1), begin_at(corners.size()),
-      end_at(corners.size());
-  std::partial_sum(valence.begin(), valence.end(), at.begin() + 1,
-                   [](std::int64_t a, std::int64_t b) { return a + b; });
-  std::vector<std::int64_t> begun(at), ended(at);
-  for (std::int64_t s = 0; s < sides; ++s) {
-    begin_at[begun[from(s)]++] = s;
-    end_at[ended[to(s)]++] = s;
-  }
-  // Of the sides from one vertex to another how many there are and the last of them; looked up where there are fewer.
-  const auto find = [&](std::int32_t a, std::int32_t b) {
-    std::pair<int, std::int64_t> found{0, -1};
-    if (valence[a] <= valence[b]) {
-      for (std::int64_t k = at[a]; k < at[a + 1]; ++k)
-        if (to(begin_at[k]) == b) ++found.first, found.second = begin_at[k];
-    } else {
-      for (std::int64_t k = at[b]; k < at[b + 1]; ++k)
-        if (from(end_at[k]) == a) ++found.first, found.second = end_at[k];
+  std::sort(by_edge.begin(), by_edge.end());
+  for (std::size_t k = 0; k < by_edge.size(); ++k) {
+    const auto [edge, side] = by_edge[k];
+    if (k + 1 == by_edge.size() || by_edge[k + 1].first != edge) {
+      on_boundary[from(side)] = on_boundary[to(side)] = 1;
+      continue;
     }
-    return found;
-  };
-  for (std::int64_t s = 0; s < sides; ++s) {
-    const auto [others, other] = find(to(s), from(s));
-    if (others > 1 || find(from(s), to(s)).first > 1) return false;
-    across[s] = other;
-    if (other < 0) on_boundary[from(s)] = on_boundary[to(s)] = 1;
+    const std::int64_t other = by_edge[++k].second;
+    const bool third = k + 1 < by_edge.size() && by_edge[k + 1].first == edge;
+    if (third || from(other) == from(side)) return false;
+    across[side] = other;
+    across[other] = side;
   }
   return true;
 }

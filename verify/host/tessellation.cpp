@@ -202,6 +202,9 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
   indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
   triangle_face_ = out.triangle_face;
   corner_ = out.corner;
+  count_bad(
+      defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
+      [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
   if (delivered) {
     inspect_contents();
   } else {
@@ -209,10 +212,16 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
   }
 }
 
-void Tessellation::take_places(const std::function<Matching(const Bare&)>& find_places) {
+void Tessellation::inspect_contents() {
   count_bad(
-      defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
-      [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
+      defects_, Kind::kFaceOutOfRange, "triangle_face", triangles_,
+      [&](std::int64_t t) { return face_ok(t); }, "triangles name a control face that does not exist");
+  count_bad(
+      defects_, Kind::kProvenanceOutOfRange, "provenance", vertices_,
+      [&](std::int64_t v) { return provenance_ok(v); }, "vertices name a place outside the control mesh");
+}
+
+void Tessellation::take_places(const std::function<Matching(const Bare&)>& find_places) {
   if (defects_.empty()) {
     matching_ = std::make_shared<Matching>(
         find_places({vertices_, triangles(), [this](std::int64_t v) { return position(v); }}));
@@ -226,18 +235,6 @@ void Tessellation::take_places(const std::function<Matching(const Bare&)>& find_
   provenance_ = matching_->provenance.data();
   corner_ = matching_->corner.data();
   triangle_face_ = matching_->triangle_face.data();
-}
-
-void Tessellation::inspect_contents() {
-  count_bad(
-      defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
-      [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
-  count_bad(
-      defects_, Kind::kFaceOutOfRange, "triangle_face", triangles_,
-      [&](std::int64_t t) { return face_ok(t); }, "triangles name a control face that does not exist");
-  count_bad(
-      defects_, Kind::kProvenanceOutOfRange, "provenance", vertices_,
-      [&](std::int64_t v) { return provenance_ok(v); }, "vertices name a place outside the control mesh");
 }
 
 }  // namespace limitcheck::verify

@@ -312,19 +312,7 @@ void ChildProcess::read(std::span<std::byte> to) {
   if (buffered > 0) std::memcpy(to.data(), buffer_.data() + taken_, buffered);
   taken_ += buffered;
   to = to.subspan(buffered);
-  while (!to.empty()) {
-    const ssize_t n = ::read(pipe_[kOut], to.data(), to.size());
-    if (n > 0) {
-      to = to.subspan(static_cast<std::size_t>(n));
-      watch_limits();
-    } else if (n == 0) {
-      ended();
-    } else if (errno != EAGAIN && errno != EINTR) {
-      refuse("cannot read from the process");
-    } else {
-      wait_for(kOut, POLLIN);
-    }
-  }
+  while (!to.empty()) to = to.subspan(read_some(to));
 }
 
 std::string ChildProcess::line(std::size_t longest) {
@@ -346,27 +334,22 @@ std::string ChildProcess::line(std::size_t longest) {
     looked = left.size();
     buffer_.erase(0, taken_);
     taken_ = 0;
-    fill_buffer();
+    std::array<char, 65536> chunk;
+    buffer_.append(chunk.data(), read_some(std::as_writable_bytes(std::span(chunk))));
   }
 }
 
-// Appends what lies in the pipe, if anything, to the buffer, or waits a little.
-void ChildProcess::fill_buffer() {
-  constexpr std::size_t kChunk = 65536;
-  const std::size_t old = buffer_.size();
-  buffer_.resize(old + kChunk);
-  const ssize_t n = ::read(pipe_[kOut], buffer_.data() + old, kChunk);
-  const int error = errno;
-  buffer_.resize(old + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+// Reads what lies in the pipe, at most so much, and returns how much it was; or waits a little.
+std::size_t ChildProcess::read_some(std::span<std::byte> to) {
+  const ssize_t n = ::read(pipe_[kOut], to.data(), to.size());
   if (n > 0) {
     watch_limits();
-  } else if (n == 0) {
-    ended();
-  } else if (error != EAGAIN && error != EINTR) {
-    refuse("cannot read from the process");
-  } else {
-    wait_for(kOut, POLLIN);
+    return static_cast<std::size_t>(n);
   }
+  if (n == 0) ended();
+  if (errno != EAGAIN && errno != EINTR) refuse("cannot read from the process");
+  wait_for(kOut, POLLIN);
+  return 0;
 }
 
 void ChildProcess::finish(int exit_status) {

@@ -74,7 +74,7 @@ class ChildProcess : public protocol::Source {
   void wait_for(Pipe pipe, short events);
   void watch_limits();
   void start_clock();
-  void fill_buffer();
+  std::size_t read_some(std::span<std::byte> to);
   void refuse_more_output();
   void drain_errors();
   void start(const std::vector<std::string>& command, Containment containment);

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
+#include <type_traits>
 
 #include "data/error.h"
 #include "data/untrusted_json.h"
@@ -15,6 +15,23 @@ namespace limitcheck::verify::protocol {
 
 std::string to_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+nlohmann::json names_of(std::int32_t bits, Names names) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& [name, bit] : names)
+    if ((bits & bit) != 0) list.push_back(name);
+  return list;
+}
+
+std::array<std::span<std::byte>, 5> arrays_of(const lc_mesh& mesh) {
+  const auto bytes = [](const auto* data, std::int64_t count) {
+    using Element = std::remove_cv_t<std::remove_pointer_t<decltype(data)>>;
+    return std::as_writable_bytes(std::span(const_cast<Element*>(data), static_cast<std::size_t>(count)));
+  };
+  return {bytes(mesh.positions, 3 * mesh.vertex_count), bytes(mesh.face_sizes, mesh.face_count),
+          bytes(mesh.corners, mesh.corner_count), bytes(mesh.sharp_edges, mesh.sharp_edge_count),
+          bytes(mesh.sharp_vertices, mesh.sharp_vertex_count)};
 }
 
 Header::Header(const std::string& line) try : json_(data::parse_untrusted(line)) {
@@ -64,10 +81,18 @@ int Header::choice(const char* key, std::initializer_list<std::string_view> choi
   return static_cast<int>(found - choices.begin());
 }
 
+std::int32_t Header::bits(const char* key, Names names) const {
+  const nlohmann::json& list = at(key);
+  if (!list.is_array()) throw Error(fmt::format("\"{}\" is no list", key));
+  std::int32_t bits = 0;
+  for (const auto& [name, bit] : names)
+    if (std::find(list.begin(), list.end(), name) != list.end()) bits |= bit;
+  return bits;
+}
+
 void Header::refuse_unless_ok() const {
-  // The order of lc_status.
-  const auto status =
-      static_cast<lc_status>(choice("status", {"ok", "not-supported", "invalid-input", "failed"}));
+  const auto status = static_cast<lc_status>(
+      choice("status", {kStatusWords[0], kStatusWords[1], kStatusWords[2], kStatusWords[3]}));
   if (status == LC_OK) return;
   const std::string message = has("message") ? text("message") : "";
   throw SubjectError(status, message.empty() ? "no reason was given" : printable(message, 1000));

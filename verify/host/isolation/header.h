@@ -2,15 +2,39 @@
 // The JSON line before a payload. Private to the protocol: it shows nlohmann's headers.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "verify/host/isolation/protocol.h"
 
 namespace limitcheck::verify::protocol {
+
+/// The words of lc_status, in its order.
+inline constexpr std::array<const char*, 4> kStatusWords{"ok", "not-supported", "invalid-input", "failed"};
+
+/// The bits of lc_capabilities by the names that questions and answers give them.
+using Names = std::span<const std::pair<std::string_view, std::int32_t>>;
+inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 2> kSchemes{
+    {{"loop", LC_DOES_LOOP}, {"catmull-clark", LC_DOES_CATMULL_CLARK}}};
+inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kSharpKinds{
+    {{"creases", LC_SHARP_CREASES},
+     {"semi-sharp", LC_SHARP_SEMI},
+     {"chaikin", LC_SHARP_CHAIKIN},
+     {"corners", LC_SHARP_CORNERS},
+     {"smooth-triangles", LC_SHARP_SMOOTH_TRIANGLES},
+     {"no-darts", LC_SHARP_NO_DARTS}}};
+nlohmann::json names_of(std::int32_t bits, Names names);
+
+/// The arrays of a mesh as bytes, in the order in which they are sent. They may be written to where whoever lent the mesh
+/// has made a copy for that.
+std::array<std::span<std::byte>, 5> arrays_of(const lc_mesh& mesh);
 
 /// Dumped on one line. Text that is not UTF-8 is replaced; it never throws.
 std::string to_line(const nlohmann::json& json);
@@ -26,6 +50,8 @@ class Header {
   std::string text(const char* key) const;
   /// The index of the value among `choices`.
   int choice(const char* key, std::initializer_list<std::string_view> choices) const;
+  /// Of a list of names the bits; names that are not known are left out.
+  std::int32_t bits(const char* key, Names names) const;
   const nlohmann::json& at(const char* key) const;
   /// "status": "ok" returns; "not-supported", "invalid-input"
   /// and "failed" become SubjectErrors with "message".

@@ -7,7 +7,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -19,10 +18,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
 #include <cstring>
-#include <limits>
-#include <string_view>
 
 namespace limitcheck::verify {
 namespace {
@@ -76,60 +72,6 @@ bool keep_identity(const Identity& own) {
 bool mount_proc() {
   return mount("", "/", nullptr, MS_PRIVATE | MS_REC, nullptr) == 0 &&
          mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
-}
-
-// Takes the hexadecimal number that `text` begins with.
-std::uintptr_t hexadecimal(const char*& text) {
-  std::uintptr_t value = 0;
-  for (;; ++text) {
-    const char c = *text;
-    const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-    if (digit < 0) return value;
-    value = 16 * value + static_cast<std::uintptr_t>(digit);
-  }
-}
-
-// The keeper has this program's memory, copied as either of them writes to it. It gives back all that is
-// large and anonymous, the heap above all, but for its stack and its thread's variables.
-void shed_memory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  constexpr std::uintptr_t kWorthIt = 1 << 20;
-  struct Range {
-    std::uintptr_t begin, end;
-  };
-  std::array<Range, 512> found{};
-  std::size_t count = 0;
-  const std::array<std::uintptr_t, 2> needed{reinterpret_cast<std::uintptr_t>(&found),
-                                             reinterpret_cast<std::uintptr_t>(&errno)};
-  const int fd = open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
-  std::array<char, 512> line{};
-  std::array<char, 4096> chunk{};
-  std::size_t length = 0;
-  for (ssize_t n = 0; fd >= 0 && (n = read(fd, chunk.data(), chunk.size())) > 0;)
-    for (const char c : std::string_view(chunk.data(), static_cast<std::size_t>(n))) {
-      if (c != '\n') {
-        if (length + 1 < line.size()) line[length++] = c;
-        continue;
-      }
-      line[length] = '\0';
-      length = 0;
-      // 7f0000000000-7f0000001000 rw-p 00000000 00:00 0    [heap]
-      const char* text = line.data();
-      Range range{};
-      range.begin = hexadecimal(text);
-      range.end = hexadecimal(++text);
-      const bool anonymous = std::strstr(text, " rw-p 00000000 00:00 0") == text;
-      const bool plain =
-          anonymous && (std::strchr(text, '[') == nullptr || std::strstr(text, "[heap]") != nullptr);
-      const bool mine = std::any_of(needed.begin(), needed.end(),
-                                    [&](std::uintptr_t p) { return range.begin <= p && p < range.end; });
-      if (plain && !mine && range.end - range.begin >= kWorthIt && count < found.size())
-        found[count++] = range;
-    }
-  if (fd >= 0) close(fd);
-  for (std::size_t k = 0; k < count; ++k)
-    madvise(reinterpret_cast<void*>(found[k].begin), found[k].end - found[k].begin, MADV_DONTNEED);
-#endif
 }
 
 [[noreturn]] void become_child(char* const* argv, const KeeperPipes& pipes) {
@@ -239,7 +181,7 @@ void sweep(pid_t child) {
   for (const int fd : pipes.standard) close(fd);
   for (const int fd : {0, 1, 2}) close(fd);
 
-  for (bool host_lives = true, first = true; host_lives; first = false) {
+  for (bool host_lives = true; host_lives;) {
     int status = 0;
     for (pid_t gone = 0; (gone = waitpid(-1, &status, WNOHANG)) > 0;) {
       if (gone != child) continue;
@@ -248,16 +190,10 @@ void sweep(pid_t child) {
       end();  // and with the first process of a namespace all others end
     }
     std::array<pollfd, 2> awaited{{{pipes.lifeline, POLLIN, 0}, {signals, POLLIN, 0}}};
-    poll(awaited.data(), awaited.size(), first ? 0 : signals < 0 ? 10 : -1);
+    poll(awaited.data(), awaited.size(), signals < 0 ? 10 : -1);
     std::array<signalfd_siginfo, 8> taken{};
     if (read(signals, taken.data(), sizeof taken) < 0 && errno != EAGAIN && errno != EINTR) end();
     host_lives = awaited[0].revents == 0;
-    if (!first) continue;
-    // After every function used below has been called once, because resolving a function for the first time
-    // uses the heap.
-    kill_children(std::numeric_limits<pid_t>::max());
-    kill(getpid(), 0);
-    shed_memory();
   }
   if (!in_namespace) sweep(child);
   end();

@@ -39,22 +39,19 @@ bool lists_children(const fs::path& proc) {
   return fs::exists(proc / "thread-self" / "children", ignored);
 }
 
-std::vector<pid_t> listed_descendants(pid_t process, const fs::path& proc) {
-  std::vector<pid_t> found;
-  std::size_t done = 0;
-  for (pid_t parent = process;; parent = found[done++]) {
-    const fs::path tasks = proc / std::to_string(parent) / "task";
-    for (const pid_t task : numbers_in(tasks)) {
-      std::ifstream list(tasks / std::to_string(task) / "children");
-      for (pid_t child = 0; list >> child;)
-        if (std::find(found.begin(), found.end(), child) == found.end()) found.push_back(child);
-    }
-    if (done == found.size()) return found;
+std::vector<pid_t> listed_children(pid_t process, const fs::path& proc) {
+  std::vector<pid_t> children;
+  const fs::path tasks = proc / std::to_string(process) / "task";
+  for (const pid_t task : numbers_in(tasks)) {
+    std::ifstream list(tasks / std::to_string(task) / "children");
+    children.insert(children.end(), std::istream_iterator<pid_t>(list), {});
   }
+  return children;
 }
 
-std::vector<pid_t> searched_descendants(pid_t process, const fs::path& proc) {
-  std::multimap<pid_t, pid_t> child_of;
+// Of all processes there are, by their parents.
+std::map<pid_t, std::vector<pid_t>> all_children(const fs::path& proc) {
+  std::map<pid_t, std::vector<pid_t>> children;
   for (const pid_t p : numbers_in(proc)) {
     std::ifstream in(proc / std::to_string(p) / "stat");
     std::string stat;
@@ -64,16 +61,9 @@ std::vector<pid_t> searched_descendants(pid_t process, const fs::path& proc) {
     if (name_end == std::string::npos || name_end + 4 >= stat.size()) continue;
     pid_t parent = 0;
     std::from_chars(stat.data() + name_end + 4, stat.data() + stat.size(), parent);
-    child_of.emplace(parent, p);
+    children[parent].push_back(p);
   }
-  std::vector<pid_t> found;
-  std::size_t done = 0;
-  for (pid_t parent = process;; parent = found[done++]) {
-    const auto [first, last] = child_of.equal_range(parent);
-    for (auto child = first; child != last; ++child)
-      if (std::find(found.begin(), found.end(), child->second) == found.end()) found.push_back(child->second);
-    if (done == found.size()) return found;
-  }
+  return children;
 }
 
 // Of these, `shared`: those of files and shared memory.
@@ -121,7 +111,16 @@ std::uint64_t bytes_behind(std::string_view sought, const char* file, pid_t proc
 }  // namespace
 
 std::vector<pid_t> descendants(pid_t process, const fs::path& proc) {
-  return lists_children(proc) ? listed_descendants(process, proc) : searched_descendants(process, proc);
+  const bool listed = lists_children(proc);
+  std::map<pid_t, std::vector<pid_t>> children;
+  if (!listed) children = all_children(proc);
+  std::vector<pid_t> found;
+  std::size_t done = 0;
+  for (pid_t parent = process;; parent = found[done++]) {
+    for (const pid_t child : listed ? listed_children(parent, proc) : children[parent])
+      if (std::find(found.begin(), found.end(), child) == found.end()) found.push_back(child);
+    if (done == found.size()) return found;
+  }
 }
 
 std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,

@@ -11,6 +11,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <type_traits>
+#include <vector>
 
 #include "verify/host/isolation/header.h"
 #include "verify/subject/lent_mesh.h"
@@ -20,8 +21,9 @@ static_assert(std::endian::native == std::endian::little, "payloads are little-e
 namespace limitcheck::verify::protocol {
 namespace {
 
-void append(std::string& text, const void* data, std::size_t bytes) {
-  text.append(static_cast<const char*>(data), bytes);
+std::string append(std::string text, std::initializer_list<std::span<const std::byte>> arrays) {
+  for (const auto& bytes : arrays) text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text;
 }
 
 template <class T>
@@ -99,23 +101,15 @@ void read_rows(Source& source, const lc_tessellation& out) {
 }
 
 std::int32_t schemes_of(const Header& header) {
-  const nlohmann::json& list = header.at("schemes");
-  std::int32_t schemes = 0;
-  for (const auto& [name, bit] :
-       {std::pair{"loop", std::int32_t{LC_DOES_LOOP}}, {"catmull-clark", LC_DOES_CATMULL_CLARK}})
-    if (std::find(list.begin(), list.end(), name) != list.end()) schemes |= bit;
-  if (!list.is_array() || schemes == 0) throw Error(R"("schemes" is no list with "loop" or "catmull-clark")");
+  const bool listed = header.at("schemes").is_array();
+  const std::int32_t schemes = listed ? header.bits("schemes", kSchemes) : 0;
+  if (schemes == 0) throw Error(R"("schemes" is no list with "loop" or "catmull-clark")");
   return schemes;
 }
 
-std::int32_t sharp_of(const Header& header) {
-  if (!header.has("sharp")) return 0;
-  const nlohmann::json& list = header.at("sharp");
-  if (!list.is_array()) throw Error(R"("sharp" is no list)");
-  std::int32_t kinds = 0;
-  for (const auto& [name, bit] : kSharpKinds)
-    if (std::find(list.begin(), list.end(), name) != list.end()) kinds |= bit;
-  return kinds;
+// "loop", "catmull-clark"
+std::string_view name_of(lc_scheme scheme) {
+  return data::name_of(scheme_of(scheme));
 }
 
 std::size_t real_size(const Capabilities& capabilities) {
@@ -135,10 +129,6 @@ std::string printable(std::string_view text, std::size_t longest) {
     }
   }
   return text.size() > longest ? out + "..." : out;
-}
-
-std::string_view name_of(lc_scheme scheme) {
-  return data::name_of(scheme_of(scheme));
 }
 
 // Each question says version 1, as programs of that version expect it, and which is the latest.
@@ -179,17 +169,9 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
       text += fmt::format("{} {}\n", mesh.sharp_vertices[k].vertex, mesh.sharp_vertices[k].sharpness);
     return text;
   }
-  const auto array = [&](const auto* data, std::int64_t count) {
-    append(text, data, sizeof(*data) * static_cast<std::size_t>(count));
-  };
-  array(mesh.positions, 3 * mesh.vertex_count);
-  if (polygons) array(mesh.face_sizes, mesh.face_count);
-  array(mesh.corners, mesh.corner_count);
-  if (polygons) {
-    array(mesh.sharp_edges, mesh.sharp_edge_count);
-    array(mesh.sharp_vertices, mesh.sharp_vertex_count);
-  }
-  return text;
+  const auto [positions, sizes, corners, sharp_edges, sharp_vertices] = arrays_of(mesh);
+  if (polygons) return append(text, {positions, sizes, corners, sharp_edges, sharp_vertices});
+  return append(text, {positions, corners});
 }
 
 std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads,
@@ -197,11 +179,8 @@ std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads
   std::string text = to_line({{"request", "tessellate"},
                               {"threads", threads},
                               {capabilities.version > 1 ? "faces" : "triangles", face_depth.size()}});
-  if (capabilities.payload == Payload::kText) {
-    append_rows(text, face_depth.data(), static_cast<std::int64_t>(face_depth.size()), 1);
-  } else {
-    append(text, face_depth.data(), face_depth.size_bytes());
-  }
+  if (capabilities.payload == Payload::kBinary) return append(text, {std::as_bytes(face_depth)});
+  append_rows(text, face_depth.data(), static_cast<std::int64_t>(face_depth.size()), 1);
   return text;
 }
 
@@ -231,7 +210,7 @@ Capabilities read_capabilities(Source& source) {
   c.per_face_depth = header.flag("per_face_depth");
   c.exact_lattice = header.flag("exact_lattice");
   c.schemes = version == 1 ? std::int32_t{LC_DOES_LOOP} : schemes_of(header);
-  c.sharp = version == 1 ? 0 : sharp_of(header);
+  c.sharp = version > 1 && header.has("sharp") ? header.bits("sharp", kSharpKinds) : 0;
   if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
   if (header.has("provenance")) c.no_provenance = header.flag("provenance") ? 0 : 1;
   if (header.has("options")) result.options = header.text("options");
@@ -267,41 +246,30 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   if (bytes > static_cast<double>(most_bytes))
     throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",
                             vertices, triangles, bytes / 1048576, most_bytes >> 20));
-  const auto get = [&](std::int64_t count, std::size_t size) {
-    void* memory = request.allocate(request.host, static_cast<std::size_t>(count) * size);
-    if (memory == nullptr) throw std::bad_alloc();
-    return memory;
-  };
   out.vertex_count = vertices;
   out.triangle_count = triangles;
-  out.positions = get(vertices, point);
-  out.normals = normals ? get(vertices, point) : nullptr;
-  out.triangles = static_cast<std::uint32_t*>(get(triangles, 3 * sizeof(std::uint32_t)));
-  if (capabilities.values.no_provenance == 0) {
-    out.provenance = static_cast<lc_provenance*>(get(vertices, sizeof(lc_provenance)));
-    out.triangle_face = static_cast<std::int32_t*>(get(triangles, sizeof(std::int32_t)));
-  }
-  if (capabilities.version > 1 && out.provenance != nullptr)
-    out.corner = static_cast<std::int32_t*>(get(vertices, sizeof(std::int32_t)));
-
-  if (capabilities.payload == Payload::kText) {
-    if (capabilities.values.precision == LC_FLOAT32) {
-      read_rows<float>(source, out);
-    } else {
-      read_rows<double>(source, out);
-    }
-    return;
-  }
-  const auto fill = [&](void* array, std::int64_t count, std::size_t size) {
-    if (array != nullptr)
-      source.read({static_cast<std::byte*>(array), static_cast<std::size_t>(count) * size});
+  std::vector<std::span<std::byte>> arrays;  // in the order of the payload
+  const auto allocate = [&](auto*& array, std::int64_t count, std::size_t size) {
+    const std::size_t whole = static_cast<std::size_t>(count) * size;
+    void* const memory = request.allocate(request.host, whole);
+    if (memory == nullptr) throw std::bad_alloc();
+    array = static_cast<std::remove_reference_t<decltype(array)>>(memory);
+    arrays.emplace_back(static_cast<std::byte*>(memory), whole);
   };
-  fill(out.positions, vertices, point);
-  fill(out.normals, vertices, point);
-  fill(out.provenance, vertices, sizeof(lc_provenance));
-  fill(out.corner, vertices, sizeof(std::int32_t));
-  fill(out.triangles, triangles, 3 * sizeof(std::uint32_t));
-  fill(out.triangle_face, triangles, sizeof(std::int32_t));
+  const bool places = capabilities.values.no_provenance == 0;
+  allocate(out.positions, vertices, point);
+  if (normals) allocate(out.normals, vertices, point);
+  if (places) allocate(out.provenance, vertices, sizeof(lc_provenance));
+  if (places && capabilities.version > 1) allocate(out.corner, vertices, sizeof(std::int32_t));
+  allocate(out.triangles, triangles, 3 * sizeof(std::uint32_t));
+  if (places) allocate(out.triangle_face, triangles, sizeof(std::int32_t));
+
+  if (capabilities.payload == Payload::kBinary)
+    for (const auto& array : arrays) source.read(array);
+  else if (capabilities.values.precision == LC_FLOAT32)
+    read_rows<float>(source, out);
+  else
+    read_rows<double>(source, out);
 }
 
 }  // namespace limitcheck::verify::protocol

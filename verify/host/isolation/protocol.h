@@ -3,15 +3,12 @@
 // says, as functions. No processes here: answers are read from any source of bytes.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "verify/subject/subject.h"
 
@@ -81,18 +78,6 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
 /// the subject wrote to it. So the host judges what it would have seen without the process in between.
 Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh,
                       const lc_request& request, lc_tessellation& out);
-
-/// "loop", "catmull-clark": as questions and answers name them.
-std::string_view name_of(lc_scheme scheme);
-
-/// The bits of lc_capabilities.sharp, by the names that answers give them.
-inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kSharpKinds{
-    {{"creases", LC_SHARP_CREASES},
-     {"semi-sharp", LC_SHARP_SEMI},
-     {"chaikin", LC_SHARP_CHAIKIN},
-     {"corners", LC_SHARP_CORNERS},
-     {"smooth-triangles", LC_SHARP_SMOOTH_TRIANGLES},
-     {"no-darts", LC_SHARP_NO_DARTS}}};
 
 /// A text for a message: at most `longest` bytes, nothing a terminal would act on.
 std::string printable(std::string_view text, std::size_t longest);

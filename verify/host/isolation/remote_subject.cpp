@@ -70,14 +70,11 @@ struct RemoteCalls {
     return LC_FAILED;
   }
 
-  static Input input(const RemoteSubject& s, const std::string& options) {
-    return {s.kind_ == RemoteSubject::Kind::kProgram ? "--program" : "",
-            s.what_,
-            s.kind_ == RemoteSubject::Kind::kBuiltIn,
-            options,
-            s.settings_.limits,
-            nullptr,
-            {}};
+  static Input input(const RemoteSubject& s, const std::string& options, const lc_mesh* mesh = nullptr,
+                     std::span<const std::int32_t> depths = {}) {
+    using Kind = RemoteSubject::Kind;
+    const char* const flag = s.kind_ == Kind::kProgram ? "--program" : "";
+    return {flag, s.what_, s.kind_ == Kind::kBuiltIn, options, s.settings_.limits, mesh, depths};
   }
 
   static lc_status capabilities(RemoteSubject& s, const char* options, lc_capabilities* out,
@@ -116,9 +113,7 @@ struct RemoteCalls {
     }
     auto made = std::make_unique<Instance>(
         Instance{s, std::exchange(s.waiting_, nullptr), s.capabilities_, *mesh, given});
-    Input in = input(s, given);
-    in.mesh = mesh;
-    const lc_status status = answer(s, *made->child, message, in, [&] {
+    const lc_status status = answer(s, *made->child, message, input(s, given, mesh), [&] {
       made->child->ask(protocol::ask_create(*mesh, given, made->capabilities));
       protocol::read_created(*made->child);
     });
@@ -131,10 +126,7 @@ struct RemoteCalls {
     auto& i = *static_cast<Instance*>(instance);
     const std::span depth(request->face_depth, static_cast<std::size_t>(i.mesh.face_count));
     const std::uint64_t most = i.subject.settings_.limits.memory_bytes();
-    Input in = input(i.subject, i.options);
-    in.mesh = &i.mesh;
-    in.face_depth = depth;
-    return answer(i.subject, *i.child, message, in, [&] {
+    return answer(i.subject, *i.child, message, input(i.subject, i.options, &i.mesh, depth), [&] {
       i.child->ask(protocol::ask_tessellate(depth, request->threads, i.capabilities));
       if (i.subject.kind_ == RemoteSubject::Kind::kProgram) {
         protocol::read_tessellation(*i.child, i.capabilities, most, *request, *out);
@@ -152,9 +144,8 @@ struct RemoteCalls {
   static void destroy(void* instance) {
     const std::unique_ptr<Instance> i(static_cast<Instance*>(instance));
     if (!i->child->alive()) return;  // it was told when it happened
-    Input in = input(i->subject, i->options);
-    in.mesh = &i->mesh;
     const char* message = nullptr;
+    const Input in = input(i->subject, i->options, &i->mesh);
     const lc_status status = answer(i->subject, *i->child, &message, in, [&] {
       if (i->subject.kind_ == RemoteSubject::Kind::kProgram) {
         i->child->finish();
@@ -206,18 +197,9 @@ RemoteSubject::~RemoteSubject() {
 }
 
 std::unique_ptr<ChildProcess> RemoteSubject::start() {
-  std::vector<std::string> command;
-  switch (kind_) {
-    case Kind::kLibrary:
-      command = {settings_.worker, "worker", "library", what_};
-      break;
-    case Kind::kBuiltIn:
-      command = {settings_.worker, "worker", "built-in", what_};
-      break;
-    case Kind::kProgram:
-      command = {"/bin/sh", "-c", what_};
-      break;
-  }
+  const char* const kind = kind_ == Kind::kLibrary ? "library" : "built-in";
+  std::vector<std::string> command{settings_.worker, "worker", kind, what_};
+  if (kind_ == Kind::kProgram) command = {"/bin/sh", "-c", what_};
   if (settings_.in_turns) command.emplace_back("--in-turns");
   return std::make_unique<ChildProcess>(command, settings_.limits, &receipt_);
 }

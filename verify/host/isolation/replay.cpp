@@ -78,19 +78,9 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
   out.triangle_face = static_cast<std::int32_t*>(place("triangle_face"));
   out.corner = static_cast<std::int32_t*>(place("corner"));
 
-  if (header.flag("mesh_changed")) {
-    // The copy that the session lent to the subject: to be written to, as the subject did.
-    const auto bytes = [&](const auto* data, std::int64_t count) {
-      return std::span(reinterpret_cast<std::byte*>(
-                           const_cast<std::remove_const_t<std::remove_pointer_t<decltype(data)>>*>(data)),
-                       sizeof(*data) * static_cast<std::size_t>(count));
-    };
-    source.read(bytes(mesh.positions, 3 * mesh.vertex_count));
-    source.read(bytes(mesh.corners, mesh.corner_count));
-    source.read(bytes(mesh.face_sizes, mesh.face_count));
-    source.read(bytes(mesh.sharp_edges, mesh.sharp_edge_count));
-    source.read(bytes(mesh.sharp_vertices, mesh.sharp_vertex_count));
-  }
+  // The copy that the session lent to the subject: to be written to, as the subject did.
+  if (header.flag("mesh_changed"))
+    for (const auto& array : arrays_of(mesh)) source.read(array);
   return {header.flag("release_threw")};
 }
 

@@ -55,13 +55,6 @@ class Connection final : public protocol::Source {
     }
     throw HostGone{};
   }
-  template <class T>
-  std::vector<T> array(std::int64_t count) {
-    std::vector<T> result(count);
-    read(std::as_writable_bytes(std::span(result)));
-    return result;
-  }
-
   void write(std::span<const std::byte> bytes) const {
     while (!bytes.empty()) {
       const ssize_t n = ::write(out_, bytes.data(), bytes.size());
@@ -93,20 +86,6 @@ data::Scheme asked_scheme(const Header& header) {
                                                                  : data::Scheme::kCatmullClark;
 }
 
-nlohmann::json scheme_names(const lc_capabilities& c) {
-  nlohmann::json names = nlohmann::json::array();
-  for (const auto scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
-    if (does(c, scheme)) names.push_back(data::name_of(scheme));
-  return names;
-}
-
-nlohmann::json sharp_names(const lc_capabilities& c) {
-  nlohmann::json names = nlohmann::json::array();
-  for (const auto& [name, bit] : protocol::kSharpKinds)
-    if ((c.sharp & bit) != 0) names.push_back(name);
-  return names;
-}
-
 nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options,
                                    data::Scheme scheme) {
   lc_capabilities c{};
@@ -121,8 +100,8 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"weights", c.weights == LC_WEIGHTS_LOOP ? "loop" : "warren"},
           {"boundary", c.boundary == LC_BOUNDARY_SPLINE ? "spline" : "none"},
           {"points", c.points == LC_POINTS_LIMIT ? "limit" : "refined"},
-          {"schemes", scheme_names(c)},
-          {"sharp", sharp_names(c)},
+          {"schemes", protocol::names_of(c.schemes == 0 ? LC_DOES_LOOP : c.schemes, protocol::kSchemes)},
+          {"sharp", protocol::names_of(c.sharp, protocol::kSharpKinds)},
           {"max_depth", c.max_depth},
           {"normals", c.normals != 0},
           {"per_face_depth", c.per_face_depth != 0},
@@ -141,7 +120,8 @@ nlohmann::json place(const Memory& memory, const void* pointer) {
 }
 
 void tessellate(Loaded& loaded, const Header& header, Connection& host) {
-  const std::vector<std::int32_t> depth = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
+  std::vector<std::int32_t> depth(header.integer("faces", 0, INT32_MAX));
+  host.read(std::as_writable_bytes(std::span(depth)));
   const LentMesh before = loaded.mesh;
 
   Memory memory;
@@ -178,13 +158,8 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
               {"release_threw", release_threw}});
   host.write(std::as_bytes(std::span(blocks)));
   for (const Memory::Block& b : memory.blocks()) host.write({b.data, b.size});
-  if (mesh_changed) {
-    host.write(std::as_bytes(std::span(loaded.mesh.positions)));
-    host.write(std::as_bytes(std::span(loaded.mesh.corners)));
-    host.write(std::as_bytes(std::span(loaded.mesh.face_sizes)));
-    host.write(std::as_bytes(std::span(loaded.mesh.sharp_edges)));
-    host.write(std::as_bytes(std::span(loaded.mesh.sharp_vertices)));
-  }
+  if (mesh_changed)
+    for (const std::span<const std::byte> array : protocol::arrays_of(loaded.mesh.view())) host.write(array);
 }
 
 // An exit status that no program ends with by chance: a library that ends the process while it is unloaded is
@@ -205,11 +180,12 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
     loaded.emplace(Loaded{subject, header.text("options"), {}});
     LentMesh& lent = loaded->mesh;
     lent.scheme = asked_scheme(header);
-    lent.positions = host.array<double>(3 * header.integer("vertices", 0, INT32_MAX));
-    lent.face_sizes = host.array<std::int32_t>(header.integer("faces", 0, INT32_MAX));
-    lent.corners = host.array<std::int32_t>(header.integer("corners", 0, INT32_MAX));
-    lent.sharp_edges = host.array<lc_sharp_edge>(header.integer("sharp_edges", 0, INT32_MAX));
-    lent.sharp_vertices = host.array<lc_sharp_vertex>(header.integer("sharp_vertices", 0, INT32_MAX));
+    lent.positions.resize(3 * header.integer("vertices", 0, INT32_MAX));
+    lent.face_sizes.resize(header.integer("faces", 0, INT32_MAX));
+    lent.corners.resize(header.integer("corners", 0, INT32_MAX));
+    lent.sharp_edges.resize(header.integer("sharp_edges", 0, INT32_MAX));
+    lent.sharp_vertices.resize(header.integer("sharp_vertices", 0, INT32_MAX));
+    for (const auto& array : protocol::arrays_of(lent.view())) host.read(array);
     lent.creasing =
         header.choice("creasing", {"uniform", "chaikin"}) == 0 ? LC_CREASING_UNIFORM : LC_CREASING_CHAIKIN;
     lent.corners_held = header.flag("corners_held");
@@ -260,10 +236,8 @@ int serve(const std::function<const lc_subject&()>& load, bool in_turns) {
       } catch (const HostLacks& lack) {  // the host finds the same shortage, and says so
         host.write({{"limitcheck", protocol::kVersion}, {"status", "failed"}, {"message", lack.what}});
       } catch (const SubjectError& error) {
-        // In the order of lc_status.
-        static constexpr std::array<const char*, 4> kWords{"ok", "not-supported", "invalid-input", "failed"};
         host.write({{"limitcheck", protocol::kVersion},
-                    {"status", kWords[error.status()]},
+                    {"status", protocol::kStatusWords[error.status()]},
                     {"message", error.what()}});
         if (header.text("request") == "create") loaded.reset();
       }

@@ -10,6 +10,15 @@
 
 namespace limitcheck::data {
 
+Channel Channel::some(int first, int count) const {
+  Channel result{name, count, {}, corners, rule};
+  for (std::size_t i = static_cast<std::size_t>(first); i < values.size();
+       i += static_cast<std::size_t>(components))
+    result.values.insert(result.values.end(), values.begin() + static_cast<std::ptrdiff_t>(i),
+                         values.begin() + static_cast<std::ptrdiff_t>(i) + count);
+  return result;
+}
+
 std::string fault_of(const Channel& channel, const ControlMesh& mesh, std::int64_t first) {
   if (channel.components < 1 || channel.components > kMostComponents)
     return fmt::format("a value has 1 to {} components, not {}", kMostComponents, channel.components);

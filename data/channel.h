@@ -48,6 +48,8 @@ struct Channel {
     return values[static_cast<std::size_t>(corners[corner]) * static_cast<std::size_t>(components) +
                   static_cast<std::size_t>(component)];
   }
+  /// `count` components from `first` on, as a channel.
+  Channel some(int first, int count) const;
   friend bool operator==(const Channel&, const Channel&) = default;
 };
 inline constexpr int kMostComponents = 4;

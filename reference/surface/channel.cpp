@@ -201,6 +201,12 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
   return result;
 }
 
+data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel) {
+  const ChannelTopology topology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners,
+                                 data::ChannelRule::kNone);
+  return cut_and_hold(topology, mesh.sharpness.triangles).faces;
+}
+
 struct ChannelSurface::Data {
   data::ControlMesh cut;           // its positions are the values
   std::optional<Surface> surface;  // of the cut; none by the rule `all`

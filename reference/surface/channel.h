@@ -39,6 +39,10 @@ class ChannelEvaluator {
   std::unique_ptr<const Data> data_;
 };
 
+/// The faces of a mesh, corner by corner, where each run of faces between seams of a channel has a vertex of its own.
+/// Throws data::ArgumentError as ChannelEvaluator.
+data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel);
+
 /// The same in double: of the cut, whose errors are those of Surface; by the rule `all` a few roundings.
 class ChannelSurface {
  public:

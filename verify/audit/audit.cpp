@@ -236,7 +236,8 @@ std::vector<std::string> Auditor::row_names(const AuditSubject& audited, const A
   if (is_oracle(audited)) {
     rows = {"oracle-faces", "oracle-double", "oracle-parts"};
   } else {
-    for (const Check& check : checks()) rows.insert(rows.end(), check.rows.begin(), check.rows.end());
+    for (const Check& check : checks())
+      if (has_matter(check, mesh.mesh)) rows.insert(rows.end(), check.rows.begin(), check.rows.end());
     for (const std::string_view row : rows_of_relations(mesh, mesh.sample ? mesh.sample->part() : mesh.mesh))
       rows.emplace_back(row);
   }
@@ -296,7 +297,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
     rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
-    for (const Check& check : checks()) rows.add(check, Status::kNotRun, "there is no tessellation");
+    for (const Check& check : checks())
+      if (has_matter(check, mesh.mesh)) rows.add(check, Status::kNotRun, "there is no tessellation");
     const data::ControlMesh& whole_or_part = sample ? sample->part() : mesh.mesh;
     for (const std::string_view r : rows_of_relations(mesh, whole_or_part))
       rows.add(r, Status::kNotRun, "there is no tessellation");
@@ -346,6 +348,7 @@ void Auditor::run_checks(const AuditSubject& audited, const AuditMesh& mesh, con
   };
   for (const Check& check : checks()) {
     if (interrupted() != 0) break;
+    if (!has_matter(check, mesh.mesh)) continue;
     // What is recognised is made of the row of positions.
     const bool for_others = check.name == "positions" &&
                             (wants(audited, mesh, "recognised") || wants(audited, mesh, "refined-positions"));

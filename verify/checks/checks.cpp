@@ -23,8 +23,13 @@ const std::vector<Check>& checks() {
       {"shared", {"shared-positions", "shared-normals"}, check_shared, false},
       {"continuity", {"continuity"}, check_continuity, true},
       {"watertight", {"watertight", "t-vertices"}, check_watertight, false},
+      {"channels", {"channel-positions", "channel-shared"}, check_channels, false},
   };
   return all;
+}
+
+bool has_matter(const Check& check, const data::ControlMesh& mesh) {
+  return check.run != check_channels || !mesh.channels.empty();
 }
 
 Confirmation confirm(const Evidence& e, std::vector<double>& error,

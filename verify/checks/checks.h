@@ -90,6 +90,11 @@ std::vector<Result> check_continuity(const Evidence&);
 /// control mesh; `t-vertices`: no vertex lies inside an edge of another triangle.
 std::vector<Result> check_watertight(const Evidence&);
 
+/// `channel-positions`: at each corner of a triangle the values of the mesh's channels, on the side of the seam on which
+/// the triangle lies; `channel-shared`: a value that several triangles have has the same bits in each. Nothing where the
+/// subject was handed no channel.
+std::vector<Result> check_channels(const Evidence&);
+
 struct Check {
   std::string_view name;  // of the file and the function; the names of its rows are in `rows`
   std::vector<std::string_view> rows;
@@ -99,5 +104,7 @@ struct Check {
 
 /// In the order of the table.
 const std::vector<Check>& checks();
+/// Whether a mesh has what a check looks at: channels.
+bool has_matter(const Check& check, const data::ControlMesh& mesh);
 
 }  // namespace limitcheck::verify

@@ -86,8 +86,7 @@ TEST(ChannelFiles, AnotherRuleIsRecognised) {
     const Result r =
         row(audit(mesh, textured(mesh, scheme, ChannelRule::kAll), {.scheme = scheme}), "file-channel");
     EXPECT_EQ(r.status, Status::kFinding) << name;
-    EXPECT_EQ(r.message, "the texture coordinates are those of the rule all; the control mesh says none")
-        << name;
+    EXPECT_EQ(r.message, "the values are those of the rule all, where none was asked for") << name;
     EXPECT_GT(*r.worst, 1e-3) << name;
   }
 }

@@ -53,6 +53,8 @@ std::string impossible(const lc_capabilities& c) {
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
     return fmt::format("schemes is {}", c.schemes);
   if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_NO_DARTS) return fmt::format("sharp is {}", c.sharp);
+  if (c.channel_rules < 0 || c.channel_rules >= 2 << LC_CHANNEL_ALL)
+    return fmt::format("channel_rules is {}", c.channel_rules);
   if (c.no_provenance != 0 && c.per_face_depth != 0)
     return "no_provenance and per_face_depth are 1, and only uniform depths can do without provenance";
   if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
@@ -88,7 +90,7 @@ std::string changes(const LentMesh& before, const LentMesh& after) {
         before.face_sizes[f] != after.face_sizes[f] || !compare(before.corners, after.corners, corner, size);
     corner += size;
   }
-  if (changed == 0) return "the subject changed the sharpness of edges or vertices";
+  if (changed == 0) return "the subject changed the sharpness of edges or vertices, or a channel";
   return fmt::format("the subject changed {} vertices or faces of the control mesh", changed);
 }
 
@@ -124,6 +126,11 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
     throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
+  // A channel that is none of the mesh, as of one with fewer faces, is nobody's to interpolate.
+  std::erase_if(mesh_.channels, [&](const data::Channel& c) {
+    const int rule = static_cast<int>(c.rule.value_or(data::kUsualChannelRule));
+    return (capabilities_.channel_rules >> rule & 1) == 0 || !data::fault_of(c, mesh_).empty();
+  });
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
       if (!std::ranges::all_of(mesh_.positions[v], [](double x) { return std::isfinite(x); }))
@@ -133,6 +140,9 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   if (single)
     for (auto& position : mesh_.positions)
       for (double& x : position) x = static_cast<double>(static_cast<float>(x));
+  for (data::Channel& channel : mesh_.channels)
+    for (double& x : channel.values)
+      if (single) x = static_cast<double>(static_cast<float>(x));
   lent_ = LentMesh(mesh_, scheme);
 
   const lc_mesh& mine = lent_.lend();
@@ -187,6 +197,8 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   result.precision_ = capabilities_.precision;
   result.scheme_ = lent_.scheme;
   result.face_sizes_ = lent_.face_sizes;
+  for (const data::Channel& channel : mesh_.channels)
+    result.channel_components_.push_back(channel.components);
   const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate,
                            sizeof(lc_request)};
   lc_tessellation out{};

@@ -108,6 +108,12 @@ class Tessellation {
     return {triangle_face_, static_cast<std::size_t>(triangles_)};
   }
 
+  /// Of the channels that the mesh was handed over with how many were delivered: all, or none.
+  std::size_t channel_count() const { return channel_values_ == nullptr ? 0 : channel_components_.size(); }
+  /// A component of the value at corner k of triangle t, and the bytes of all of them.
+  double channel_value(std::size_t channel, std::int64_t t, int k, int component) const;
+  std::span<const std::byte> channel_bits(std::size_t channel, std::int64_t t, int k) const;
+
   /// Indices and control face of triangle t are in range.
   bool triangle_ok(std::int64_t t) const;
   /// The control face exists and (i, j) / denominator lies in its domain.
@@ -152,6 +158,8 @@ class Tessellation {
   const std::array<std::uint32_t, 3>* indices_ = nullptr;
   std::int32_t* triangle_face_ = nullptr;
   const std::int32_t* corner_ = nullptr;
+  const void* channel_values_ = nullptr;
+  std::vector<std::int32_t> channel_components_;  // of each channel of the mesh
   std::vector<Defect> defects_;
   std::vector<Overrun> overruns_;
 };

@@ -38,7 +38,7 @@ void count_bad(std::vector<Defect>& defects, Defect::Kind kind, const char* arra
   }
 }
 
-using Arrays = std::array<Array, 6>;
+using Arrays = std::array<Array, 7>;
 using Kind = Defect::Kind;
 
 void note(std::vector<Defect>& defects, Kind kind, const char* array, std::string message) {
@@ -71,7 +71,7 @@ bool counts_usable(const lc_tessellation& out, std::vector<Defect>& defects) {
   return usable;
 }
 
-// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals and corners may
+// Each array lies, aligned, in a block of the host's, as long as the counts say. Only normals, corners and channels may
 // be missing.
 bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vector<Defect>& defects) {
   bool usable = true;
@@ -80,7 +80,8 @@ bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vect
       if (!a.required || a.elements <= 0) continue;
       note(defects, Kind::kMissingArray, a.name,
            fmt::format("{} is NULL, {} elements were announced", a.name, a.elements));
-      usable = usable && std::string_view(a.name) == "normals";
+      usable =
+          usable && (std::string_view(a.name) == "normals" || std::string_view(a.name) == "channel_values");
       continue;
     }
     const auto* block = memory.find(a.data);
@@ -155,6 +156,22 @@ bool Tessellation::triangle_ok(std::int64_t t) const {
   return face_ok(t) && indices_ok(t);
 }
 
+std::span<const std::byte> Tessellation::channel_bits(std::size_t channel, std::int64_t t, int k) const {
+  std::int64_t before = 0;  // components of earlier channels
+  for (std::size_t c = 0; c < channel; ++c) before += channel_components_[c];
+  const std::int64_t components = channel_components_[channel];
+  const auto first = static_cast<std::size_t>(3 * triangles_ * before + (3 * t + k) * components);
+  return {static_cast<const std::byte*>(channel_values_) + first * coordinate_size(),
+          static_cast<std::size_t>(components) * coordinate_size()};
+}
+
+double Tessellation::channel_value(std::size_t channel, std::int64_t t, int k, int component) const {
+  const std::byte* const number =
+      channel_bits(channel, t, k).data() + static_cast<std::size_t>(component) * coordinate_size();
+  if (precision_ == LC_FLOAT64) return *reinterpret_cast<const double*>(number);
+  return *reinterpret_cast<const float*>(number);
+}
+
 void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t count) {
   const auto renumber = [&](std::int32_t& face) {
     face = face >= 0 && static_cast<std::size_t>(face) < to.size() ? to[face] : -1;
@@ -178,6 +195,8 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
                            const std::function<Matching(const Bare&)>& find_places) {
   const bool delivered = !find_places;
   const std::size_t real = coordinate_size();
+  std::size_t components = 0;  // of all channels
+  for (const std::int32_t c : channel_components_) components += static_cast<std::size_t>(c);
   const Arrays arrays{{
       {"positions", out.positions, out.vertex_count, 3 * real, real, true},
       {"normals", out.normals, out.vertex_count, 3 * real, real, promises_normals},
@@ -188,6 +207,8 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
       {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
        delivered},
       {"corner", out.corner, out.vertex_count, sizeof(std::int32_t), alignof(std::int32_t), false},
+      {"channel_values", components == 0 ? nullptr : out.channel_values, out.triangle_count,
+       3 * components * real, real, components > 0},
   }};
   find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
   if (!counts_usable(out, defects_) || !memory_usable(*memory_, arrays, defects_) ||
@@ -202,6 +223,7 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
   indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
   triangle_face_ = out.triangle_face;
   corner_ = out.corner;
+  channel_values_ = components == 0 ? nullptr : out.channel_values;
   count_bad(
       defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
       [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");

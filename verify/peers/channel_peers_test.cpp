@@ -33,12 +33,12 @@ ChannelMesh<double> channel_of(const ControlMesh& mesh, ChannelRule rule) {
 }
 
 // The largest difference between the values of Far and those of our rules after each of some steps, at every corner.
-double worst_difference(const ControlMesh& mesh, ChannelRule rule, data::Scheme scheme, int depth) {
+double worst_difference(ControlMesh mesh, ChannelRule rule, data::Scheme scheme, int depth) {
+  mesh.channels.at(0).rule = rule;
   ChannelMesh<double> ours = channel_of(mesh, rule);
   const data::Channel& uv = mesh.channels[0];
   const LentMesh lent(mesh, scheme);
-  const auto refiner =
-      make_refiner(lent.view(), opensubdiv_scheme(lent.view()), boundary_rule(lent.view()), &uv, rule);
+  const auto refiner = make_refiner(lent.view());
   OpenSubdiv::Far::TopologyRefiner::UniformOptions uniform(depth);
   uniform.fullTopologyInLastLevel = true;
   refiner->RefineUniform(uniform);

@@ -22,6 +22,7 @@
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
 #include "reference/mesh/sharpness.h"
+#include "reference/surface/channel.h"
 #include "verify/peers/evaluated_faces.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/control_mesh.h"
@@ -158,11 +159,13 @@ class NaiveSubject {
                            1};
     result.sharp =
         LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
+    result.channel_rules = kAllChannelRules;
     return result;
   }
 
   NaiveSubject(const lc_mesh& mesh, Options& options)
-      : mesh_(control_mesh(mesh)),
+      : lent_(mesh),
+        mesh_(control_mesh(mesh)),
         scheme_(scheme_of(mesh.scheme)),
         subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))),
         sides_(mesh_) {}
@@ -198,10 +201,15 @@ class NaiveSubject {
                        corner.at.part);
       for (const auto& [a, b, c] : faces[k]->triangles)
         all.add_triangle({base + a, base + b, base + c}, face);
-      faces[k].reset();
     }
     all.hand_over<double>(request, out, /*with_normals=*/true,
                           /*with_corners=*/scheme_ == data::Scheme::kCatmullClark);
+    if (mesh_.channels.empty()) return;
+    double* to = allocate_channels<double>(request, lent_, out);
+    for (const data::Channel& channel : mesh_.channels) {
+      put_channel(channel, faces, depth, to);
+      to += 3 * std::ssize(all.triangles) * channel.components;
+    }
   }
 
  private:
@@ -236,6 +244,51 @@ class NaiveSubject {
     });
   }
 
+  // Of each corner of each triangle; of the values of one point on one side of a seam the first in the order of their
+  // bits is taken, as of positions. Channels are evaluated by the reference, three components at a time.
+  void put_channel(const data::Channel& channel, const std::vector<std::unique_ptr<Face>>& faces,
+                   std::span<const std::int32_t> depth, double* to) const {
+    const data::Faces cut = reference::faces_of_cut(mesh_, channel);
+    const data::ChannelRule rule = channel.rule.value_or(data::kUsualChannelRule);
+    for (int first = 0; first < channel.components; first += 3) {
+      const int count = std::min(3, channel.components - first);
+      const reference::ChannelSurface surface(mesh_, channel.some(first, count), rule, scheme_);
+      std::vector<std::vector<Vec3>> values(faces.size());
+      std::map<BorderPoint, Vec3> agreed;
+      BorderPoint point{};
+      const auto each = [&](const auto& body) {
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v)
+            body(f, v, faces[f]->vertices[v]);
+      };
+      each([&](std::size_t f, std::size_t v, const Corner& corner) {
+        const double n =
+            std::max(1., static_cast<double>(domain(f).denominator(std::int64_t{1} << depth[f])));
+        values[f].resize(faces[f]->vertices.size());
+        values[f][v] =
+            surface
+                .evaluate(static_cast<int>(f), corner.at.part, static_cast<double>(corner.at.i) / n,
+                          static_cast<double>(corner.at.j) / n)
+                .position;
+        if (on_border(cut[f], domain(f), corner, depth[f], point) >= 0)
+          agree(agreed.try_emplace(point, values[f][v]).first->second, values[f][v]);
+      });
+      each([&](std::size_t f, std::size_t v, const Corner& corner) {
+        if (on_border(cut[f], domain(f), corner, depth[f], point) >= 0) values[f][v] = agreed.at(point);
+      });
+      std::size_t written = 0;
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::size_t t = 0; faces[f] != nullptr && t < faces[f]->triangles.size(); ++t)
+          for (const std::uint32_t v : faces[f]->triangles[t]) {
+            const Vec3& value = values[f][v];
+            const std::array all{value.x, value.y, value.z};
+            std::copy_n(all.begin(), count, to + written + first);
+            written += static_cast<std::size_t>(channel.components);
+          }
+    }
+  }
+
+  const lc_mesh lent_;
   const data::ControlMesh mesh_;
   const data::Scheme scheme_;
   const Subdivider subdivider_;

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level), then limit
-// positions and tangents (PrimvarRefiner::Limit). Delivered as the library delivers it; the normal is its
+// positions and tangents (PrimvarRefiner::Limit); channels by InterpolateFaceVarying and LimitFaceVarying. Delivered as the library delivers it; the normal is its
 // first tangent x its second, one for each vertex, on a sharp edge, too. Catmull-Clark's quads are cut along
 // a diagonal. Limit() takes the faces around a vertex for quads without a look: on a mesh of other faces its
 // values at depth 0 mean nothing.
 #include <opensubdiv/far/primvarRefiner.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
@@ -44,7 +46,10 @@ class FarSubject {
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
     (void)bare(options);
-    return {wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 8, 1, 0, 1};
+    lc_capabilities result{
+        wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 8, 1, 0, 1};
+    result.channel_rules = kAllChannelRules;
+    return result;
   }
 
   FarSubject(const lc_mesh& mesh, Options& options)
@@ -106,20 +111,61 @@ class FarSubject {
     }
 
     const std::array<Steps, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, triangle{{{0, 0}, {1, 0}, {0, 1}}};
-    std::int64_t written = 0;
+    std::vector<Fan> fans;
     for (std::int32_t face = 0; face < mesh_.face_count; ++face)
-      descend(face, 0, depth, {face, 0, 1, quads ? square : triangle}, output, written);
+      descend(face, 0, depth, {face, 0, 1, quads ? square : triangle}, output, fans);
+    if (mesh_.channel_count > 0) put_channels<Real>(request, depth, primvars, fans, out);
+  }
+
+  // A triangle of a refined face: its corners 0, k and k + 1.
+  struct Fan {
+    int face, k;
+  };
+
+  // Each channel level by level, then its limit: of components three at a time.
+  template <class Real>
+  void put_channels(const lc_request& request, int depth, const Far::PrimvarRefinerReal<Real>& primvars,
+                    const std::vector<Fan>& fans, lc_tessellation& out) const {
+    const std::span channels(mesh_.channels, static_cast<std::size_t>(mesh_.channel_count));
+    auto* to = allocate_channels<Real>(request, mesh_, out);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const auto components = static_cast<std::size_t>(channels[c].components);
+      const int channel = static_cast<int>(c);
+      for (std::size_t first = 0; first < components; first += 3) {
+        const std::size_t count = std::min<std::size_t>(3, components - first);
+        std::vector<Vector<Real>> values(static_cast<std::size_t>(channels[c].value_count));
+        for (std::size_t v = 0; v < values.size(); ++v)
+          for (std::size_t k = 0; k < count; ++k)
+            values[v].x[k] = static_cast<Real>(channels[c].values[v * components + first + k]);
+        for (int level = 1; level <= depth; ++level) {
+          std::vector<Vector<Real>> next(
+              static_cast<std::size_t>(refiner_->GetLevel(level).GetNumFVarValues(channel)));
+          primvars.InterpolateFaceVarying(level, values, next, channel);
+          values.swap(next);
+        }
+        std::vector<Vector<Real>> limit(values.size());
+        primvars.LimitFaceVarying(values, limit, channel);
+        for (std::size_t t = 0; t < fans.size(); ++t) {
+          const auto indices = refiner_->GetLevel(depth).GetFaceFVarValues(fans[t].face, channel);
+          for (std::size_t n = 0; const int corner : {0, fans[t].k, fans[t].k + 1}) {
+            const Vector<Real>& value = limit[static_cast<std::size_t>(indices[corner])];
+            std::copy_n(value.x.begin(), count, to + (3 * t + n++) * components + first);
+          }
+        }
+      }
+      to += 3 * fans.size() * components;
+    }
   }
 
   // Writes the triangles into which `face` of `level` is divided at `depth`, and the provenance of their corners.
   template <class Real>
   void descend(int face, int level, int depth, const RefinedFace& here, const Output<Real>& output,
-               std::int64_t& written) const {
+               std::vector<Fan>& fans) const {
     const auto corners = refiner_->GetLevel(level).GetFaceVertices(face);
     if (level < depth) {
       const auto children = refiner_->GetLevel(level).GetFaceChildFaces(face);
       for (int c = 0; c < children.size(); ++c)
-        descend(children[c], level + 1, depth, child_of(face, level, here, children[c]), output, written);
+        descend(children[c], level + 1, depth, child_of(face, level, here, children[c]), output, fans);
       return;
     }
     const bool parts = has_parts(corners.size());
@@ -129,10 +175,11 @@ class FarSubject {
       if (output.corner != nullptr) output.corner[corners[k]] = parts ? k : here.part;
     }
     for (int k = 1; k + 1 < corners.size(); ++k) {
-      std::uint32_t* const triangle = output.triangles + 3 * written;
+      std::uint32_t* const triangle = output.triangles + 3 * fans.size();
       for (std::size_t c = 0; const int corner : {corners[0], corners[k], corners[k + 1]})
         triangle[c++] = static_cast<std::uint32_t>(corner);
-      output.triangle_face[written++] = here.control_face;
+      output.triangle_face[fans.size()] = here.control_face;
+      fans.push_back({face, k});
     }
   }
 

@@ -11,10 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "data/channel.h"
 #include "verify/peers/evaluated_faces.h"
 #include "verify/subject/adapter.h"
 
@@ -71,16 +71,11 @@ inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(const lc
   return mesh.corners_held != 0 ? Rules::VTX_BOUNDARY_EDGE_AND_CORNER : Rules::VTX_BOUNDARY_EDGE_ONLY;
 }
 
-/// Far's rule of a channel: ours are counted as Far counts its own.
-inline OpenSubdiv::Sdc::Options::FVarLinearInterpolation opensubdiv_rule(data::ChannelRule rule) {
-  return static_cast<OpenSubdiv::Sdc::Options::FVarLinearInterpolation>(rule);
-}
-
-/// The refiner of a control mesh with its sharp edges and vertices, and a channel if there is one.
+/// The refiner of a control mesh with its sharp edges and vertices, and its channels, which have one rule. Throws
+/// SubjectError if they have not.
 inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
     const lc_mesh& mesh, OpenSubdiv::Sdc::SchemeType type,
-    OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary, const data::Channel* channel = nullptr,
-    data::ChannelRule rule = data::kUsualChannelRule) {
+    OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary) {
   using namespace OpenSubdiv;
   const OpenSubdivErrors errors;
   Far::TopologyDescriptor descriptor;
@@ -108,14 +103,16 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
   scheme.SetVtxBoundaryInterpolation(boundary);
   if (mesh.creasing == LC_CREASING_CHAIKIN) scheme.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
   if (mesh.smooth_triangles != 0) scheme.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
-  Far::TopologyDescriptor::FVarChannel values;
-  if (channel != nullptr) {
-    values.numValues = static_cast<int>(channel->values.size()) / channel->components;
-    values.valueIndices = channel->corners.data();
-    descriptor.numFVarChannels = 1;
-    descriptor.fvarChannels = &values;
-    scheme.SetFVarLinearInterpolation(opensubdiv_rule(rule));
+  std::vector<Far::TopologyDescriptor::FVarChannel> channels;
+  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count))) {
+    if (c.rule != mesh.channels[0].rule) throw SubjectError(LC_NOT_SUPPORTED, "channels of different rules");
+    Far::TopologyDescriptor::FVarChannel& channel = channels.emplace_back();
+    channel.numValues = static_cast<int>(c.value_count);
+    channel.valueIndices = c.corners;
+    scheme.SetFVarLinearInterpolation(static_cast<Sdc::Options::FVarLinearInterpolation>(c.rule));
   }
+  descriptor.numFVarChannels = static_cast<int>(channels.size());
+  descriptor.fvarChannels = channels.data();
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(descriptor, Factory::Options(type, scheme)));
   errors.check();

@@ -141,6 +141,17 @@ const std::vector<RowKind>& row_kinds() {
        "in 50 decimals.",
        "They meet.", kOracle},
 
+      // Of meshes with channels.
+      {"channel-positions", "channels", kOther,
+       "At each corner of each triangle the values of the mesh's face-varying channels, on the side of a "
+       "seam on which the "
+       "triangle lies.",
+       "As of positions, with the size of the channel.",
+       "Stam's evaluator in double on the mesh that is cut along the seams"},
+      {"channel-shared", "channels", kOther,
+       "A point on one side of a seam has the same bits in all triangles that have it.", kNone,
+       "the bytes delivered"},
+
       // Of finished tessellations (--tessellation).
       {"file-finite", "finite", kNotFinite, "No position or normal in the file is NaN or infinite.", kNone,
        "IEEE 754"},

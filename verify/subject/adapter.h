@@ -109,6 +109,21 @@ Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, st
           out.corner};
 }
 
+/// All rules of channels.
+inline constexpr std::int32_t kAllChannelRules = (2 << LC_CHANNEL_ALL) - 1;
+
+/// Allocates the values of the mesh's channels, whose triangles are announced: see lc_tessellation.
+template <class Real>
+Real* allocate_channels(const lc_request& request, const lc_mesh& mesh, lc_tessellation& out) {
+  std::size_t components = 0;
+  for (std::int64_t c = 0; c < mesh.channel_count; ++c)
+    components += static_cast<std::size_t>(mesh.channels[c].components);
+  out.channel_values = request.allocate(
+      request.host, 3 * static_cast<std::size_t>(out.triangle_count) * components * sizeof(Real));
+  if (out.channel_values == nullptr) throw std::bad_alloc();
+  return static_cast<Real*>(out.channel_values);
+}
+
 /// A tessellation whose sizes are known only when it is done: in double, which holds a float exactly.
 struct DeliveredArrays {
   using Vector = std::array<double, 3>;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -83,6 +84,13 @@ struct LentMesh {
   std::vector<lc_sharp_vertex> sharp_vertices;
   lc_creasing creasing = LC_CREASING_UNIFORM;
   bool corners_held = false, smooth_triangles = false;
+  struct LentChannel {
+    std::int32_t components = 0;
+    lc_channel_rule rule = LC_CHANNEL_NONE;
+    std::vector<double> values;
+    std::vector<std::int32_t> corners;
+  };
+  std::vector<LentChannel> channels;
   data::Scheme scheme = data::Scheme::kLoop;
 
   LentMesh() = default;
@@ -100,6 +108,10 @@ struct LentMesh {
     if (mesh.sharpness.creasing == data::Creasing::kChaikin) creasing = LC_CREASING_CHAIKIN;
     corners_held = mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
     smooth_triangles = mesh.sharpness.triangles == data::TriangleRule::kSmooth;
+    for (const data::Channel& c : mesh.channels)
+      channels.push_back({c.components,
+                          static_cast<lc_channel_rule>(c.rule.value_or(data::kUsualChannelRule)), c.values,
+                          c.corners});
   }
   /// A copy of a mesh that somebody else lent.
   explicit LentMesh(const lc_mesh& mesh)
@@ -111,7 +123,13 @@ struct LentMesh {
         creasing(mesh.creasing),
         corners_held(mesh.corners_held != 0),
         smooth_triangles(mesh.smooth_triangles != 0),
-        scheme(scheme_of(mesh.scheme)) {}
+        scheme(scheme_of(mesh.scheme)) {
+    for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
+      channels.push_back({c.components,
+                          c.rule,
+                          {c.values, c.values + c.components * c.value_count},
+                          {c.corners, c.corners + mesh.corner_count}});
+  }
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(positions.size() / 3); }
   std::int64_t faces() const { return static_cast<std::int64_t>(face_sizes.size()); }
@@ -120,8 +138,12 @@ struct LentMesh {
   /// again.
   const lc_mesh& lend() { return lent_ = view(); }
 
-  /// It refers to the arrays.
+  /// It refers to the arrays, and to what is made anew in each call.
   lc_mesh view() const {
+    lent_channels_.clear();
+    for (const LentChannel& c : channels)
+      lent_channels_.push_back({c.components, c.rule, c.values.data(),
+                                static_cast<std::int64_t>(c.values.size()) / c.components, c.corners.data()});
     const bool triangles = std::all_of(face_sizes.begin(), face_sizes.end(), [](auto n) { return n == 3; });
     return {positions.data(),
             vertices(),
@@ -139,7 +161,9 @@ struct LentMesh {
             static_cast<std::int64_t>(sharp_vertices.size()),
             creasing,
             corners_held,
-            smooth_triangles};
+            smooth_triangles,
+            lent_channels_.empty() ? nullptr : lent_channels_.data(),
+            static_cast<std::int64_t>(lent_channels_.size())};
   }
 
   /// By bytes: what a subject writes may be a NaN.
@@ -149,11 +173,16 @@ struct LentMesh {
              (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0);
     };
     return same(a.positions, b.positions) && same(a.corners, b.corners) && same(a.face_sizes, b.face_sizes) &&
-           same(a.sharp_edges, b.sharp_edges) && same(a.sharp_vertices, b.sharp_vertices);
+           same(a.sharp_edges, b.sharp_edges) && same(a.sharp_vertices, b.sharp_vertices) &&
+           std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                      [&](const LentChannel& c, const LentChannel& d) {
+                        return same(c.values, d.values) && same(c.corners, d.corners);
+                      });
   }
 
  private:
   lc_mesh lent_{};
+  mutable std::vector<lc_channel> lent_channels_;
 };
 
 }  // namespace limitcheck::verify

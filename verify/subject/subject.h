@@ -85,6 +85,27 @@ typedef struct lc_sharp_vertex {
   float sharpness;
 } lc_sharp_vertex;
 
+/* What a face-varying channel does at seams and on the boundary: OpenSubdiv's FVarLinearInterpolation and USD's
+ * faceVaryingLinearInterpolation. Each holds more values than the one before. */
+typedef enum lc_channel_rule {
+  LC_CHANNEL_NONE = 0,
+  LC_CHANNEL_CORNERS_ONLY = 1,
+  LC_CHANNEL_CORNERS_PLUS1 = 2,
+  LC_CHANNEL_CORNERS_PLUS2 = 3,
+  LC_CHANNEL_BOUNDARIES = 4,
+  LC_CHANNEL_ALL = 5
+} lc_channel_rule;
+
+/* A face-varying channel, such as texture coordinates: of each corner the index of a value. An index that is used
+ * at two vertices is two values; where the two faces of an edge name different values, there is a seam. */
+typedef struct lc_channel {
+  int32_t components; /* of a value, 1..4 */
+  lc_channel_rule rule;
+  const double* values; /* components * value_count, representable in the subject's precision */
+  int64_t value_count;
+  const int32_t* corners; /* corner_count of the mesh */
+} lc_channel;
+
 /* How sharpness falls from step to step. */
 typedef enum lc_creasing {
   LC_CREASING_UNIFORM = 0, /* by 1 */
@@ -136,6 +157,9 @@ typedef struct lc_capabilities {
    * triangles or, by Catmull-Clark, into quads of two triangles that follow one another. Vertices that several faces
    * share may be delivered once, or once for each face with equal bits. */
   int32_t no_provenance;
+  /* The rules by which it interpolates face-varying channels, 1 << lc_channel_rule each, or-ed. It is handed only
+   * channels that have one of these; 0: none. */
+  int32_t channel_rules;
 } lc_capabilities;
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or
@@ -163,6 +187,8 @@ typedef struct lc_mesh {
   int32_t corners_held; /* 1: a boundary vertex of one face stays where it is */
   int32_t
       smooth_triangles; /* 1: Catmull-Clark's first step gives edges of triangles OpenSubdiv's smooth rule */
+  const lc_channel* channels; /* channel_count, or NULL and 0 */
+  int64_t channel_count;
 } lc_mesh;
 
 /* One tessellation that is asked for. */
@@ -210,6 +236,10 @@ typedef struct lc_tessellation {
   uint32_t size;   /* of this structure, as the host knows it; set beforehand */
   int32_t* corner; /* vertex_count: the corner whose quad i and j are of; 0 on quads and triangles of Loop's.
                       NULL if all are 0 */
+  void*
+      channel_values; /* of each channel of the mesh, one after the other: for each corner of each triangle its
+                           components, on the side of a seam on which the triangle lies. Floats or doubles, by
+                           capabilities.precision. NULL if the mesh has no channels */
 } lc_tessellation;
 
 /* The table of functions that a subject consists of. */

@@ -13,6 +13,7 @@
 #include "data/io/gltf.h"
 #include "reference/surface/channel.h"
 #include "verify/files/checks/file_evidence.h"
+#include "verify/evidence/channel_rule.h"
 #include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
@@ -89,24 +90,6 @@ std::optional<Judged> judged(const FileEvidence& e, const std::vector<TexturedCo
   return std::nullopt;
 }
 
-std::string_view word(ChannelRule rule) {
-  return data::kChannelRules[static_cast<std::size_t>(rule)];
-}
-
-// The rule by which all but a hundredth of the corners are right, if there is another one.
-std::string recognised(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
-                       const data::Channel& channel, ChannelRule declared, double diagonal) {
-  for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k) {
-    const auto rule = static_cast<ChannelRule>(k);
-    if (rule == declared) continue;
-    const auto other = judged(e, corners, channel, rule, diagonal);
-    if (other && other->good * 100 >= static_cast<std::int64_t>(corners.size()) * 99)
-      return fmt::format("the texture coordinates are those of the rule {}; the control mesh says {}",
-                         word(rule), word(declared));
-  }
-  return "";
-}
-
 }  // namespace
 
 std::vector<Result> check_file_channel(const FileEvidence& e) {
@@ -148,7 +131,11 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
     r.witness->expected = {found->expected[at].begin(), found->expected[at].end()};
     r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
   }
-  if (s.bad > 0) say(r, recognised(e, corners, *channel, rule, diagonal));
+  if (s.bad > 0)
+    say(r, other_rule(rule, corners.size(), [&](ChannelRule other) -> std::optional<std::int64_t> {
+          const auto by_other = judged(e, corners, *channel, other, diagonal);
+          return by_other ? std::optional(by_other->good) : std::nullopt;
+        }));
   if (without > 0) {
     r.status = Status::kFinding;
     r.bad += without, r.of += without;

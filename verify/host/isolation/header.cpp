@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "data/channel.h"
 #include "data/error.h"
 #include "data/untrusted_json.h"
 #include "verify/subject/subject_error.h"
@@ -24,14 +25,19 @@ nlohmann::json names_of(std::int32_t bits, Names names) {
   return list;
 }
 
-std::array<std::span<std::byte>, 5> arrays_of(const lc_mesh& mesh) {
+std::vector<std::span<std::byte>> arrays_of(const lc_mesh& mesh) {
   const auto bytes = [](const auto* data, std::int64_t count) {
     using Element = std::remove_cv_t<std::remove_pointer_t<decltype(data)>>;
     return std::as_writable_bytes(std::span(const_cast<Element*>(data), static_cast<std::size_t>(count)));
   };
-  return {bytes(mesh.positions, 3 * mesh.vertex_count), bytes(mesh.face_sizes, mesh.face_count),
-          bytes(mesh.corners, mesh.corner_count), bytes(mesh.sharp_edges, mesh.sharp_edge_count),
-          bytes(mesh.sharp_vertices, mesh.sharp_vertex_count)};
+  std::vector<std::span<std::byte>> arrays{
+      bytes(mesh.positions, 3 * mesh.vertex_count), bytes(mesh.face_sizes, mesh.face_count),
+      bytes(mesh.corners, mesh.corner_count), bytes(mesh.sharp_edges, mesh.sharp_edge_count),
+      bytes(mesh.sharp_vertices, mesh.sharp_vertex_count)};
+  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
+    arrays.insert(arrays.end(),
+                  {bytes(c.values, c.components * c.value_count), bytes(c.corners, mesh.corner_count)});
+  return arrays;
 }
 
 Header::Header(const std::string& line) try : json_(data::parse_untrusted(line)) {
@@ -88,6 +94,20 @@ std::int32_t Header::bits(const char* key, Names names) const {
   for (const auto& [name, bit] : names)
     if (std::find(list.begin(), list.end(), name) != list.end()) bits |= bit;
   return bits;
+}
+
+std::vector<ChannelHeader> Header::channels() const {
+  std::vector<ChannelHeader> result;
+  if (!has("channels")) return result;
+  for (const nlohmann::json& channel : at("channels")) {
+    const Header c(channel.dump());
+    const auto rule =
+        c.choice("rule", {kChannelRules[0].first, kChannelRules[1].first, kChannelRules[2].first,
+                          kChannelRules[3].first, kChannelRules[4].first, kChannelRules[5].first});
+    result.push_back({static_cast<std::int32_t>(c.integer("components", 1, data::kMostComponents)),
+                      static_cast<lc_channel_rule>(rule), c.integer("values", 0, INT32_MAX)});
+  }
+  return result;
 }
 
 void Header::refuse_unless_ok() const {

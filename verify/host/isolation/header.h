@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "verify/host/isolation/protocol.h"
 
@@ -30,14 +31,28 @@ inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kSharp
      {"corners", LC_SHARP_CORNERS},
      {"smooth-triangles", LC_SHARP_SMOOTH_TRIANGLES},
      {"no-darts", LC_SHARP_NO_DARTS}}};
+inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kChannelRules{
+    {{"none", 1 << LC_CHANNEL_NONE},
+     {"corners-only", 1 << LC_CHANNEL_CORNERS_ONLY},
+     {"corners-plus1", 1 << LC_CHANNEL_CORNERS_PLUS1},
+     {"corners-plus2", 1 << LC_CHANNEL_CORNERS_PLUS2},
+     {"boundaries", 1 << LC_CHANNEL_BOUNDARIES},
+     {"all", 1 << LC_CHANNEL_ALL}}};
 nlohmann::json names_of(std::int32_t bits, Names names);
 
 /// The arrays of a mesh as bytes, in the order in which they are sent. They may be written to where whoever lent the mesh
 /// has made a copy for that.
-std::array<std::span<std::byte>, 5> arrays_of(const lc_mesh& mesh);
+std::vector<std::span<std::byte>> arrays_of(const lc_mesh& mesh);
 
 /// Dumped on one line. Text that is not UTF-8 is replaced; it never throws.
 std::string to_line(const nlohmann::json& json);
+
+/// What the question `create` says of a channel.
+struct ChannelHeader {
+  std::int32_t components;
+  lc_channel_rule rule;
+  std::int64_t values;
+};
 
 /// An object; every member function throws Error, which names the key, if the value is missing or of another
 /// type.
@@ -50,6 +65,8 @@ class Header {
   std::string text(const char* key) const;
   /// The index of the value among `choices`.
   int choice(const char* key, std::initializer_list<std::string_view> choices) const;
+  /// Of a mesh; none if there is no such key.
+  std::vector<ChannelHeader> channels() const;
   /// Of a list of names the bits; names that are not known are left out.
   std::int32_t bits(const char* key, Names names) const;
   const nlohmann::json& at(const char* key) const;

@@ -75,7 +75,7 @@ class Row {
 };
 
 template <class Real>
-void read_rows(Source& source, const lc_tessellation& out) {
+void read_rows(Source& source, const lc_mesh& mesh, const lc_tessellation& out) {
   auto* position = static_cast<Real*>(out.positions);
   auto* normal = static_cast<Real*>(out.normals);
   for (std::int64_t v = 0; v < out.vertex_count; ++v) {
@@ -98,6 +98,13 @@ void read_rows(Source& source, const lc_tessellation& out) {
     if (out.triangle_face != nullptr) out.triangle_face[t] = row.next<std::int32_t>();
     row.finish();
   }
+  auto* value = static_cast<Real*>(out.channel_values);
+  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
+    for (std::int64_t corner = 0; corner < 3 * out.triangle_count; ++corner) {
+      Row row(source, "channel value", corner);
+      for (std::int32_t k = 0; k < c.components; ++k) *value++ = row.next<Real>();
+      row.finish();
+    }
 }
 
 std::int32_t schemes_of(const Header& header) {
@@ -152,6 +159,9 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
     question["creasing"] = mesh.creasing == LC_CREASING_CHAIKIN ? "chaikin" : "uniform";
     question["corners_held"] = mesh.corners_held != 0;
     question["smooth_triangles"] = mesh.smooth_triangles != 0;
+    for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
+      question["channels"].push_back(
+          {{"components", c.components}, {"rule", kChannelRules[c.rule].first}, {"values", c.value_count}});
   } else {
     question["triangles"] = mesh.triangle_count;
   }
@@ -167,11 +177,16 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
     }
     for (std::int64_t k = 0; k < mesh.sharp_vertex_count; ++k)
       text += fmt::format("{} {}\n", mesh.sharp_vertices[k].vertex, mesh.sharp_vertices[k].sharpness);
+    for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count))) {
+      append_rows(text, c.values, c.value_count, c.components);
+      append_rows(text, c.corners, mesh.corner_count, 1);
+    }
     return text;
   }
-  const auto [positions, sizes, corners, sharp_edges, sharp_vertices] = arrays_of(mesh);
-  if (polygons) return append(text, {positions, sizes, corners, sharp_edges, sharp_vertices});
-  return append(text, {positions, corners});
+  std::vector<std::span<std::byte>> arrays = arrays_of(mesh);
+  if (!polygons) arrays = {arrays[0], arrays[2]};  // positions and corners
+  for (const auto& array : arrays) text = append(std::move(text), {array});
+  return text;
 }
 
 std::string ask_tessellate(std::span<const std::int32_t> face_depth, int threads,
@@ -213,6 +228,7 @@ Capabilities read_capabilities(Source& source) {
   c.sharp = version > 1 && header.has("sharp") ? header.bits("sharp", kSharpKinds) : 0;
   if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
   if (header.has("provenance")) c.no_provenance = header.flag("provenance") ? 0 : 1;
+  if (version > 1 && header.has("channels")) c.channel_rules = header.bits("channels", kChannelRules);
   if (header.has("options")) result.options = header.text("options");
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
@@ -230,7 +246,7 @@ int read_ended(Source& source) {
 }
 
 void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
-                       const lc_request& request, lc_tessellation& out) {
+                       const lc_mesh& mesh, const lc_request& request, lc_tessellation& out) {
   const Header header = read_header(source);
   header.refuse_unless_ok();
   const std::int64_t vertices = header.integer("vertices", 0, INT64_MAX);
@@ -239,10 +255,13 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   // A count is checked before memory is allocated for it.
   const std::size_t point = 3 * real_size(capabilities);
   const bool normals = capabilities.values.normals != 0;
+  std::size_t components = 0;  // of all channels
+  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
+    components += static_cast<std::size_t>(c.components);
   const double bytes =
       static_cast<double>(vertices) *
           static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance) + sizeof(std::int32_t)) +
-      static_cast<double>(triangles) * 16.0;
+      static_cast<double>(triangles) * (16.0 + static_cast<double>(3 * components * real_size(capabilities)));
   if (bytes > static_cast<double>(most_bytes))
     throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",
                             vertices, triangles, bytes / 1048576, most_bytes >> 20));
@@ -263,13 +282,14 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   if (places && capabilities.version > 1) allocate(out.corner, vertices, sizeof(std::int32_t));
   allocate(out.triangles, triangles, 3 * sizeof(std::uint32_t));
   if (places) allocate(out.triangle_face, triangles, sizeof(std::int32_t));
+  if (components > 0) allocate(out.channel_values, triangles, 3 * components * real_size(capabilities));
 
   if (capabilities.payload == Payload::kBinary)
     for (const auto& array : arrays) source.read(array);
   else if (capabilities.values.precision == LC_FLOAT32)
-    read_rows<float>(source, out);
+    read_rows<float>(source, mesh, out);
   else
-    read_rows<double>(source, out);
+    read_rows<double>(source, mesh, out);
 }
 
 }  // namespace limitcheck::verify::protocol

@@ -70,8 +70,9 @@ struct Aftermath {
 
 /// Allocates the arrays from `request`, reads them and announces them in `out`.
 ///   most_bytes   an answer that announces more is refused before anything is allocated
+///   mesh         that was handed over, whose channels come with it
 void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
-                       const lc_request& request, lc_tessellation& out);
+                       const lc_mesh& mesh, const lc_request& request, lc_tessellation& out);
 
 /// The same from the worker: repeats in the memory of `request` all that the subject did in the worker's:
 /// every block with its contents, writes into the guard zones, where each array points, and in `mesh` what

@@ -129,7 +129,7 @@ struct RemoteCalls {
     return answer(i.subject, *i.child, message, input(i.subject, i.options, &i.mesh, depth), [&] {
       i.child->ask(protocol::ask_tessellate(depth, request->threads, i.capabilities));
       if (i.subject.kind_ == RemoteSubject::Kind::kProgram) {
-        protocol::read_tessellation(*i.child, i.capabilities, most, *request, *out);
+        protocol::read_tessellation(*i.child, i.capabilities, most, i.mesh, *request, *out);
       } else {
         i.release_threw = protocol::read_replay(*i.child, most, i.mesh, *request, *out).release_threw;
       }

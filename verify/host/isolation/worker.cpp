@@ -108,6 +108,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"exact_lattice", c.exact_lattice != 0},
           {"does_not_validate", c.does_not_validate != 0},
           {"provenance", c.no_provenance == 0},
+          {"channels", protocol::names_of(c.channel_rules, protocol::kChannelRules)},
           {"options", subject.options != nullptr ? subject.options : ""}};
 }
 
@@ -154,6 +155,7 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
               {"triangle_corners", place(memory, delivered.triangles)},
               {"triangle_face", place(memory, delivered.triangle_face)},
               {"corner", place(memory, delivered.corner)},
+              {"channel_values", place(memory, delivered.channel_values)},
               {"mesh_changed", mesh_changed},
               {"release_threw", release_threw}});
   host.write(std::as_bytes(std::span(blocks)));
@@ -185,6 +187,10 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
     lent.corners.resize(header.integer("corners", 0, INT32_MAX));
     lent.sharp_edges.resize(header.integer("sharp_edges", 0, INT32_MAX));
     lent.sharp_vertices.resize(header.integer("sharp_vertices", 0, INT32_MAX));
+    for (const protocol::ChannelHeader& c : header.channels())
+      lent.channels.push_back({c.components, c.rule,
+                               std::vector<double>(static_cast<std::size_t>(c.components * c.values)),
+                               std::vector<std::int32_t>(lent.corners.size())});
     for (const auto& array : protocol::arrays_of(lent.view())) host.read(array);
     lent.creasing =
         header.choice("creasing", {"uniform", "chaikin"}) == 0 ? LC_CREASING_UNIFORM : LC_CREASING_CHAIKIN;

@@ -110,6 +110,7 @@ class Tessellation {
 
   /// Of the channels that the mesh was handed over with how many were delivered: all, or none.
   std::size_t channel_count() const { return channel_values_ == nullptr ? 0 : channel_components_.size(); }
+  int components(std::size_t channel) const { return channel_components_[channel]; }
   /// A component of the value at corner k of triangle t, and the bytes of all of them.
   double channel_value(std::size_t channel, std::int64_t t, int k, int component) const;
   std::span<const std::byte> channel_bits(std::size_t channel, std::int64_t t, int k) const;

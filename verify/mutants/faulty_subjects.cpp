@@ -210,6 +210,13 @@ class ChangedSubject {
                             ? allocate(OneBlock(request, vertices * kVertex + triangles * kTriangle).parts)
                             : allocate(request);
     copy.write(output);
+    // Triangles that were added or left out have no channel values: then none are delivered.
+    if (mesh_.channels.size() == 1 && !copy.channel_values.empty() &&
+        copy.channel_values.size() ==
+            3 * triangles * static_cast<std::size_t>(mesh_.channels[0].components)) {
+      Real* to = allocate_channels<Real>(request, lent_, out);
+      for (const double x : copy.channel_values) *to++ = static_cast<Real>(x);
+    }
     if (copy.overrun) output.positions[3 * vertices] = Real(1);
     if (copy.underrun) output.positions[-1] = Real(1);
     if (copy.modify_mesh) const_cast<double*>(lent_.positions)[0] += 1;
@@ -247,10 +254,12 @@ const std::vector<FaultTable>& fault_tables() {
   static const std::vector<Change> any = together({faults_of_frames(), faults_of_numbers(),
                                                    faults_of_refusals(), faults_of_memory(),
                                                    faults_of_polygons(), faults_of_tags()}),
-                                   rare = together({faults_of_rare_tags(), faults_of_rare_places()});
+                                   rare = together({faults_of_rare_tags(), faults_of_rare_places()}),
+                                   channels = faults_of_channels();
   static const std::vector<FaultTable> tables{{faults(), "model", "quad-model", ""},
                                               {any, "model", "quad-model", ""},
-                                              {rare, "naive", "naive", "loop_"}};
+                                              {rare, "naive", "naive", "loop_"},
+                                              {channels, "naive", "naive", "loop_"}};
   return tables;
 }
 

@@ -201,6 +201,7 @@ class NaiveSubject {
                        corner.at.part);
       for (const auto& [a, b, c] : faces[k]->triangles)
         all.add_triangle({base + a, base + b, base + c}, face);
+      if (mesh_.channels.empty()) faces[k].reset();
     }
     all.hand_over<double>(request, out, /*with_normals=*/true,
                           /*with_corners=*/scheme_ == data::Scheme::kCatmullClark);

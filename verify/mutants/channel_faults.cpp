@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+// Faults of face-varying channels, planted in a subject that interpolates them.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "reference/channel/channel_mesh.h"
+#include "verify/mutants/change_rows.h"
+
+namespace limitcheck::verify {
+
+using namespace rows;
+
+namespace {
+
+using data::Channel, data::ChannelRule;
+using Uv = Channel&;
+
+// The first channel of a mesh, of which there is one.
+const Channel& uv_of(A a) {
+  return a.mesh.channels.front();
+}
+ChannelRule rule_of(A a) {
+  return uv_of(a).rule.value_or(data::kUsualChannelRule);
+}
+bool has_channel(A a) {
+  return !a.mesh.channels.empty();
+}
+
+Change of_channels(Change c, std::function<bool(A)> shows = {}) {
+  c.on = Change::On::kBoth;
+  c.shows = [shows = std::move(shows)](A a) { return has_channel(a) && (!shows || shows(a)); };
+  return c;
+}
+
+// Another channel of the same surface. Shows where it is another one.
+Change channel(std::string name, std::string description, std::function<void(A, Uv)> what,
+               std::function<bool(A)> shows = {}) {
+  return of_channels(remake(std::move(name), std::move(description), "channel-positions",
+                            [what](A a, Mesh m) { what(a, m.channels.front()); }),
+                     [what, shows = std::move(shows)](A a) {
+                       if (shows && !shows(a)) return false;
+                       Channel other = uv_of(a);
+                       what(a, other);
+                       return !(other == uv_of(a));
+                     });
+}
+
+// The channel as it were with other tags; the surface keeps its own.
+Change tags_of_channel(const char* name, const char* description, std::function<void(Tags)> what) {
+  const auto changes = [what](A a) {
+    data::Sharpness other = a.mesh.sharpness;
+    what(other);
+    return !(other == a.mesh.sharpness);
+  };
+  return sharp(of_channels(
+      deliver(name, description, "channel-positions",
+              [what](A a, D out) {
+                data::ControlMesh other = a.mesh;
+                what(other.sharpness);
+                out.channel_values = a.again(other, {a.depth.begin(), a.depth.end()}).channel_values;
+              }),
+      [changes](A a) { return changes(a) && rule_of(a) < ChannelRule::kBoundaries; }));
+}
+
+// The channel by another rule on some faces of the control mesh.
+Change on_faces(const char* name, const char* description, ChannelRule rule,
+                std::function<bool(A, std::size_t)> some) {
+  return of_channels(deliver(name, description, "channel-positions",
+                             [=](A a, D out) {
+                               data::ControlMesh other = a.mesh;
+                               other.channels.front().rule = rule;
+                               const Delivered by_rule = a.again(other, {a.depth.begin(), a.depth.end()});
+                               for (std::size_t t = 0; t < out.triangles.size(); ++t)
+                                 if (some(a, static_cast<std::size_t>(out.triangle_face[t])))
+                                   std::copy_n(
+                                       by_rule.channel_values.begin() + static_cast<std::ptrdiff_t>(6 * t), 6,
+                                       out.channel_values.begin() + static_cast<std::ptrdiff_t>(6 * t));
+                             }),
+                     [rule](A a) { return rule_of(a) != rule && a.deepest > 0; });
+}
+
+// The values delivered: two numbers for each corner of each triangle.
+Change values_of_channel(const char* name, const char* description, const char* check,
+                         std::function<void(A, std::vector<double>&)> what) {
+  return of_channels(deliver(name, description, check, [what](A a, D out) {
+    if (out.channel_values.empty()) nowhere("channel value");
+    what(a, out.channel_values);
+  }));
+}
+
+bool seam_at(A a, std::int32_t v) {
+  std::set<std::int32_t> indices;
+  const data::Faces& faces = a.mesh.faces;
+  for (const std::int32_t f : a.topology.sector(v).faces)
+    for (std::size_t k = 0; k < faces[static_cast<std::size_t>(f)].size(); ++k)
+      if (faces[static_cast<std::size_t>(f)][k] == v)
+        indices.insert(uv_of(a).corners[faces.first_corner(static_cast<std::size_t>(f)) + k]);
+  return indices.size() > 1;
+}
+bool any_corner(A a, std::size_t face, const std::function<bool(std::int32_t)>& is) {
+  const auto corners = a.mesh.faces[face];
+  return std::any_of(corners.begin(), corners.end(), is);
+}
+bool on_boundary(A a, std::size_t face) {
+  return any_corner(a, face, [&](std::int32_t v) { return !a.inside(v); });
+}
+bool extraordinary(A a, std::size_t face) {
+  const int regular = a.scheme == data::Scheme::kLoop ? 6 : 4;
+  return any_corner(a, face, [&](std::int32_t v) { return a.inside(v) && a.faces(v) != regular; });
+}
+
+// Each corner has the index that `index` says, of a face and a corner of it.
+void reindex(A a, Uv uv, const std::function<std::int32_t(std::size_t, std::size_t)>& index) {
+  const data::Faces& faces = a.mesh.faces;
+  std::vector<std::int32_t> corners;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < faces[f].size(); ++k) corners.push_back(index(f, k));
+  uv.corners = std::move(corners);
+}
+// The index of the first face at the vertex, for all of them.
+void join_seams(A a, Uv uv, const std::function<bool(std::int32_t)>& at) {
+  std::vector<std::int32_t> first(a.mesh.positions.size(), -1);
+  const Channel before = uv;
+  reindex(a, uv, [&](std::size_t f, std::size_t k) {
+    const std::int32_t v = a.mesh.faces[f][k], own = before.corners[a.mesh.faces.first_corner(f) + k];
+    if (!at(v)) return own;
+    std::int32_t& known = first[static_cast<std::size_t>(v)];
+    return known = known < 0 ? own : known;
+  });
+}
+// A value of its own for each run of a value that has several.
+void part_values(A a, Uv uv) {
+  const reference::ChannelTopology channel(a.topology, a.mesh.sharpness, uv.corners, ChannelRule::kNone);
+  const Channel before = uv;
+  for (std::size_t v = 0; v < a.mesh.positions.size(); ++v) {
+    const auto sector = a.topology.sector(static_cast<std::int32_t>(v));
+    std::set<std::int32_t> known;
+    if (sector.faces.empty()) continue;
+    for (const reference::Run& run : channel.runs(static_cast<std::int32_t>(v))) {
+      const std::size_t first = channel.corner(channel.face(sector, run, 0), static_cast<std::int32_t>(v));
+      if (known.insert(before.corners[first]).second) continue;
+      const auto copy = static_cast<std::int32_t>(uv.values.size() / 2);
+      uv.values.insert(uv.values.end(), {before.at(first, 0), before.at(first, 1)});
+      for (std::size_t i = 0; i < run.count; ++i)
+        uv.corners[channel.corner(channel.face(sector, run, i), static_cast<std::int32_t>(v))] = copy;
+    }
+  }
+}
+
+std::vector<Change> by_rules() {
+  std::vector<Change> all;
+  for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k) {
+    std::string word(data::kChannelRules[k]);
+    std::replace(word.begin(), word.end(), '-', '_');
+    all.push_back(
+        channel("channel_always_" + word,
+                "channels have the rule " + std::string(data::kChannelRules[k]) + ", whatever was asked for",
+                [k](A, Uv uv) { uv.rule = static_cast<ChannelRule>(k); }));
+  }
+  all.push_back(channel("channel_next_rule", "each rule is taken for the next", [](A a, Uv uv) {
+    uv.rule = static_cast<ChannelRule>((static_cast<int>(rule_of(a)) + 1) % 6);
+  }));
+  return all;
+}
+
+std::vector<Change> by_indices() {
+  return {
+      channel("channel_by_vertex", "one value for each vertex: smooth across seams",
+              [](A a, Uv uv) { join_seams(a, uv, [](std::int32_t) { return true; }); }),
+      channel("channel_joined_inside", "one value for each vertex inside the surface",
+              [](A a, Uv uv) { join_seams(a, uv, [&](std::int32_t v) { return a.inside(v); }); }),
+      channel("channel_joined_on_boundary", "one value for each vertex on the boundary",
+              [](A a, Uv uv) { join_seams(a, uv, [&](std::int32_t v) { return !a.inside(v); }); }),
+      channel("channel_joined_at_regular_vertices", "one value for each regular vertex",
+              [](A a, Uv uv) {
+                join_seams(a, uv, [&](std::int32_t v) {
+                  return a.faces(v) == (a.scheme == data::Scheme::kLoop ? 6 : 4);
+                });
+              }),
+      channel("channel_by_corner", "a value for each corner: every edge is a seam",
+              [](A a, Uv uv) {
+                Channel apart{uv.name, 2, {}, {}, uv.rule};
+                for (std::size_t c = 0; c < uv.corners.size(); ++c) {
+                  apart.values.insert(apart.values.end(), {uv.at(c, 0), uv.at(c, 1)});
+                  apart.corners.push_back(static_cast<std::int32_t>(c));
+                }
+                (void)a;
+                uv = apart;
+              }),
+      channel("channel_parted_values", "a value that meets itself at a vertex alone is several", part_values),
+      channel("channel_index_of_next_corner", "indices are those of the next corner of the face",
+              [](A a, Uv uv) {
+                const Channel before = uv;
+                reindex(a, uv, [&](std::size_t f, std::size_t k) {
+                  return before.corners[a.mesh.faces.first_corner(f) + (k + 1) % a.mesh.faces[f].size()];
+                });
+              }),
+      channel("channel_index_of_last_face", "the last face has the indices of the first corner alone",
+              [](A a, Uv uv) {
+                const Channel before = uv;
+                reindex(a, uv, [&](std::size_t f, std::size_t k) {
+                  const std::size_t first = a.mesh.faces.first_corner(f);
+                  return before.corners[f + 1 == a.mesh.faces.size() ? first : first + k];
+                });
+              }),
+      channel("channel_number_of_vertex", "values are looked up by the number of the vertex",
+              [](A a, Uv uv) {
+                const auto count = static_cast<std::int32_t>(uv.values.size() / 2);
+                reindex(a, uv, [&](std::size_t f, std::size_t k) { return a.mesh.faces[f][k] % count; });
+              }),
+      channel("channel_index_of_a_byte", "indices have a byte",
+              [](A, Uv uv) {
+                for (auto& i : uv.corners) i %= 64;
+              }),
+      channel("channel_chart_of_next_face", "at a vertex a face has the value of the face before it",
+              [](A a, Uv uv) {
+                const Channel before = uv;
+                reindex(a, uv, [&](std::size_t f, std::size_t k) {
+                  const std::int32_t v = a.mesh.faces[f][k];
+                  const auto sector = a.topology.sector(v);
+                  const auto at = static_cast<std::size_t>(a.topology.ring_index(f, k));
+                  const auto other = static_cast<std::size_t>(
+                      sector.faces[(at + sector.faces.size() - 1) % sector.faces.size()]);
+                  const auto corners = a.mesh.faces[other];
+                  const auto place = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) -
+                                                              corners.begin());
+                  return before.corners[a.mesh.faces.first_corner(other) + place];
+                });
+              }),
+  };
+}
+
+std::vector<Change> by_values() {
+  const auto each_value = [](auto what) {
+    return [what](A, Uv uv) {
+      for (std::size_t i = 0; i + 1 < uv.values.size(); i += 2) what(uv.values[i], uv.values[i + 1]);
+    };
+  };
+  return {
+      channel("channel_first_component", "the second component is 0",
+              each_value([](double&, double& v) { v = 0; })),
+      channel("channel_swapped_components", "the components are exchanged",
+              each_value([](double& u, double& v) { std::swap(u, v); })),
+      channel("channel_upside_down", "the second component is counted from the top",
+              each_value([](double&, double& v) { v = 1 - v; })),
+      channel("channel_wrapped", "values are wrapped into 0 to 1",
+              each_value([](double& u, double& v) { u -= std::floor(u), v -= std::floor(v); })),
+      channel("channel_clamped", "values are clamped to 0 to 1",
+              each_value([](double& u, double& v) { u = std::clamp(u, 0., 1.), v = std::clamp(v, 0., 1.); })),
+      channel("channel_of_a_byte", "values have eight bits", each_value([](double& u, double& v) {
+                u = std::round(u * 255) / 255, v = std::round(v * 255) / 255;
+              })),
+      values_of_channel("channel_nan", "one value is NaN", "channel-positions",
+                        [](A, std::vector<double>& all) {
+                          all[all.size() / 2] = std::numeric_limits<double>::quiet_NaN();
+                        }),
+      values_of_channel(
+          "channel_infinite", "one value is infinite", "channel-positions",
+          [](A, std::vector<double>& all) { all.back() = std::numeric_limits<double>::infinity(); }),
+      values_of_channel("channel_unwritten", "the last value is not written", "channel-positions",
+                        [](A, std::vector<double>& all) { std::memset(&all.back(), 0xFF, sizeof(double)); }),
+      values_of_channel("channel_moved_value", "one value is off by a thousandth", "channel-positions",
+                        [](A, std::vector<double>& all) { all[0] += 1e-3; }),
+      values_of_channel("channel_turned_corners", "the corners of each triangle have the values of the next",
+                        "channel-positions",
+                        [](A, std::vector<double>& all) {
+                          for (std::size_t t = 0; t + 6 <= all.size(); t += 6)
+                            std::rotate(&all[t], &all[t + 2], &all[t] + 6);
+                        }),
+      values_of_channel(
+          "channel_of_next_triangle", "each triangle has the values of the next", "channel-positions",
+          [](A, std::vector<double>& all) { std::rotate(all.begin(), all.begin() + 6, all.end()); }),
+      values_of_channel("channel_by_component", "all first components come first", "channel-positions",
+                        [](A, std::vector<double>& all) {
+                          const std::vector<double> before = all;
+                          for (std::size_t i = 0; i < all.size(); i += 2) {
+                            all[i / 2] = before[i];
+                            all[(all.size() + i) / 2] = before[i + 1];
+                          }
+                        }),
+      of_channels(deliver("channel_ulp", "a value that triangles share is one ulp off in one of them",
+                          "channel-shared",
+                          [](A, D out) {
+                            // A vertex of one face that two triangles have is one point on one side.
+                            std::map<std::uint32_t, std::size_t> first;
+                            for (std::size_t c = 0; c < 3 * out.triangles.size(); ++c)
+                              if (!first.try_emplace(out.triangles[c / 3][c % 3], c).second) {
+                                out.channel_values[2 * c] = out.one_ulp_up(out.channel_values[2 * c]);
+                                return;
+                              }
+                            nowhere("value that triangles share");
+                          }),
+                  [](A a) { return a.deepest > 0; }),
+      of_channels(deliver("channel_missing", "no values are delivered", "written",
+                          [](A, D out) { out.channel_values.clear(); })),
+  };
+}
+
+std::vector<Change> by_places() {
+  using enum ChannelRule;
+  return {
+      on_faces("channel_linear_at_extraordinary", "faces at extraordinary vertices are linear", kAll,
+               extraordinary),
+      on_faces("channel_linear_on_boundary", "faces on the boundary are linear", kAll, on_boundary),
+      on_faces(
+          "channel_linear_at_seams", "faces at seams are linear", kAll,
+          [](A a, std::size_t f) { return any_corner(a, f, [&](std::int32_t v) { return seam_at(a, v); }); }),
+      on_faces("channel_linear_last_face", "the last face is linear", kAll,
+               [](A a, std::size_t f) { return f + 1 == a.mesh.faces.size(); }),
+      on_faces(
+          "channel_smooth_at_seams", "seams are smooth at faces beside them, whatever was asked for", kNone,
+          [](A a, std::size_t f) { return any_corner(a, f, [&](std::int32_t v) { return seam_at(a, v); }); }),
+      on_faces("channel_held_on_boundary", "boundaries are held where they are not", kBoundaries,
+               on_boundary),
+      on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
+                                      [](A a, std::size_t f) { return a.is_polygon(f); })),
+      tags_of_channel("channel_without_tags", "channels know no sharp edges and vertices",
+                      [](Tags t) { t = {}; }),
+      tags_of_channel("channel_without_sharp_vertices", "channels know no sharp vertices",
+                      [](Tags t) { t.vertices.clear(); }),
+      tags_of_channel("channel_without_sharp_edges", "channels know no sharp edges",
+                      [](Tags t) { t.edges.clear(); }),
+      tags_of_channel("channel_without_held_corners", "channels do not hold boundary vertices of one face",
+                      [](Tags t) { t.boundary = data::Boundary::kEdge; }),
+      tags_of_channel("channel_infinite_tags", "what is sharp is sharp for ever in channels",
+                      [](Tags t) {
+                        for (auto& e : t.edges) e.sharpness = e.sharpness > 0 ? 10.F : 0.F;
+                        for (auto& v : t.vertices) v.sharpness = v.sharpness > 0 ? 10.F : 0.F;
+                      }),
+      tags_of_channel("channel_whole_sharpness", "channels leave out fractions of a sharpness",
+                      [](Tags t) {
+                        for (auto& e : t.edges) e.sharpness = std::floor(e.sharpness);
+                        for (auto& v : t.vertices) v.sharpness = std::floor(v.sharpness);
+                        std::erase_if(t.edges, [](const auto& e) { return e.sharpness == 0; });
+                        std::erase_if(t.vertices, [](const auto& v) { return v.sharpness == 0; });
+                      }),
+  };
+}
+
+}  // namespace
+
+std::vector<Change> faults_of_channels() {
+  std::vector<Change> all;
+  for (auto& list : {by_rules(), by_indices(), by_values(), by_places()})
+    all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+}  // namespace limitcheck::verify

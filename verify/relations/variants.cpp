@@ -231,6 +231,7 @@ std::vector<std::int32_t> shuffled(std::size_t count, data::SplitMix64& random) 
 
 Rewriting::Rewriting(data::ControlMesh original, data::Scheme of_scheme)
     : mesh(std::move(original)), scheme(of_scheme) {
+  mesh.channels.clear();  // which shape nothing, and would have to be rewritten
   face.resize(mesh.faces.size());
   std::iota(face.begin(), face.end(), 0);
   symmetry.resize(face.size());

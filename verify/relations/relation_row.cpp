@@ -85,12 +85,12 @@ void SharedPointBits::add(const Tessellation& t, std::int64_t vertex, Lattice::I
 }
 
 Compared::Compared(const Evidence& e)
-    : e_(e), uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(), [&](std::int32_t d) {
-        return d == e.face_depth[0];
-      })) {
-  const Variant same = identity(e);
+    : e_(e),
+      same_(identity(e)),
+      uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(),
+                           [&](std::int32_t d) { return d == e.face_depth[0]; })) {
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
-    const Placed at = place(e, same, e.tessellation, v);
+    const Placed at = place(e, same_, e.tessellation, v);
     if (at.id == Lattice::kNone) continue;
     const auto [known, is_new] = by_face_.try_emplace(*at.face_and_point, Delivered{v, v});
     if (!is_new) {
@@ -189,6 +189,19 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
   return c;
 }
 
+Comparison Compared::bits_with(const Tessellation& t, const char* where) const {
+  Comparison c = with(t, same_, 0);
+  const Tessellation& mine = e_.tessellation;
+  if (t.vertex_count() != mine.vertex_count() || t.triangle_count() != mine.triangle_count()) {
+    c.bad += 1;
+    c.message = fmt::format("{} vertices and {} triangles, but {} and {} {}", t.vertex_count(),
+                            t.triangle_count(), mine.vertex_count(), mine.triangle_count(), where);
+  }
+  c.bad = std::max(c.bad, c.other_bits);
+  c.worst = static_cast<double>(c.bad);
+  return c;
+}
+
 std::optional<std::int64_t> Compared::with_same_bits(const Tessellation& t, std::int64_t k, const Variant& v,
                                                      Key key) const {
   Digest least{key, 0, 0};
@@ -232,12 +245,8 @@ RelationRow::RelationRow(const AuditSubject& subject, const Evidence& e, std::st
     : subject_(subject), e_(e), r_(e.result(name, unit, bound)) {}
 
 void RelationRow::ask(const std::string& what, const data::ControlMesh& mesh,
-                      const std::function<void(Session&)>& work) {
-  ask(subject_, what, mesh, work);
-}
-
-void RelationRow::ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
-                      const std::function<void(Session&)>& work) {
+                      const std::function<void(Session&)>& work, const AuditSubject* other) {
+  const AuditSubject& subject = other != nullptr ? *other : subject_;
   try {
     Session session(*subject.subject, mesh, subject.options, Session::Input::kValid, e_.lattice.scheme());
     work(session);
@@ -302,7 +311,6 @@ void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence&
   std::optional<InTurns> here;
   if (subject.in_turns == nullptr) here.emplace(*subject.subject);
   AuditSubject turns{here ? &here->subject() : subject.in_turns, subject.options};
-  const Variant mine = identity(e);
   std::string what = kTurns[0];
   const auto ask = [&](Session& session, int threads) {
     const Tessellation t = session.tessellate(e.face_depth, threads);
@@ -311,28 +319,22 @@ void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence&
       row.count(0, t.vertex_count());
       return;
     }
-    Comparison c = compared.with(t, mine, 0);
-    if (t.vertex_count() != e.tessellation.vertex_count() ||
-        t.triangle_count() != e.tessellation.triangle_count()) {
-      c.bad += 1;
-      c.message =
-          fmt::format("{} vertices and {} triangles, but {} and {} at first", t.vertex_count(),
-                      t.triangle_count(), e.tessellation.vertex_count(), e.tessellation.triangle_count());
-    }
-    c.bad = std::max(c.bad, c.other_bits);
-    c.worst = static_cast<double>(c.bad);
-    row.judge(what, c, false);
+    row.judge(what, compared.bits_with(t, "at first"), false);
   };
-  row.ask(turns, what, e.mesh, [&](Session& session) {
-    for (std::size_t k = 0; k < kTurns.size(); ++k) {
-      what = kTurns[k];
-      ask(session, k == 3 ? 8 : 1);
-    }
-  });
+  row.ask(
+      what, e.mesh,
+      [&](Session& session) {
+        for (std::size_t k = 0; k < kTurns.size(); ++k) {
+          what = kTurns[k];
+          ask(session, k == 3 ? 8 : 1);
+        }
+      },
+      &turns);
   for (const First& first : kFirst) {
     turns.options = first.option + subject.options;
     what = first.what;
-    row.ask(turns, what, e.mesh, [&](Session& session) { ask(session, 1); });
+    row.ask(
+        what, e.mesh, [&](Session& session) { ask(session, 1); }, &turns);
   }
 }
 

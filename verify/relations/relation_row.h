@@ -50,6 +50,9 @@ class Compared {
   /// finite on either side are left out, as long as there are no more of them than in the original. What faces share
   /// has to have equal bits in each variant, if it has in the original: how a mesh is written is no excuse.
   Comparison with(const Tessellation& t, const Variant& v, double slack) const;
+  /// `t` is what the subject made of the same request: each bit that differs is bad.
+  ///   where   the first answer is, for the message: "in the first"
+  Comparison bits_with(const Tessellation& t, const char* where) const;
 
  private:
   using Key = std::int64_t;  // of a point and a face
@@ -70,6 +73,7 @@ class Compared {
                                              Key key) const;
 
   const Evidence& e_;
+  const Variant same_;
   const bool uniform_;
   std::unordered_map<Key, Delivered> by_face_;
   std::vector<Digest> several_;  // all vertices where a face delivers a point more than once, sorted
@@ -98,11 +102,9 @@ class RelationRow {
   /// Opens a session for one mesh and calls `work` with it, which may tessellate any number of times.
   /// Whatever `work` or the end of the session throws is noted together with `what`, which `work` may have
   /// changed.
-  void ask(const std::string& what, const data::ControlMesh& mesh, const std::function<void(Session&)>& work);
-
-  /// The same with another subject.
-  void ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
-           const std::function<void(Session&)>& work);
+  ///   other   the subject that is asked in place of the row's
+  void ask(const std::string& what, const data::ControlMesh& mesh, const std::function<void(Session&)>& work,
+           const AuditSubject* other = nullptr);
 
   /// Notes defects of the arrays, unless the tessellation of the evidence has some too.
   void inspect(const std::string& what, const Tessellation& t);

@@ -104,6 +104,13 @@ Apart compare(const Evidence& e, const Variant& v) {
   return apart;
 }
 
+std::vector<Relation> sharp_relations() {
+  std::vector<Relation> all = surface_relations();
+  all.erase(all.begin(),
+            std::find_if(all.begin(), all.end(), [](const Relation& r) { return r.row == "crease-order"; }));
+  return all;
+}
+
 // Holds each variant that a mesh has against it; the rows that there are.
 std::set<std::string_view> expect_same_surfaces(const data::ControlMesh& mesh) {
   const Scripted scripted(mesh, std::vector<std::int32_t>(mesh.faces.size(), 1), Script{});

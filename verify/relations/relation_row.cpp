@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -75,20 +76,32 @@ bool same_arrays(const Tessellation& a, const Tessellation& b) {
          same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face());
 }
 
-}  // namespace
+// Counts the vertices at shared points whose bits are not those of the first one there: of positions at the point, of
+// normals at its side.
+class SharedPointBits {
+ public:
+  void add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side) {
+    const std::int64_t first = at_point_.emplace(point, vertex).first->second;
+    const std::int64_t first_of_side = of_side_.emplace(side, vertex).first->second;
+    unlike_ += !same_bits(t.position(vertex), t.position(first)) ||
+               (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)));
+  }
+  std::int64_t unlike() const { return unlike_; }
 
-void SharedPointBits::add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side) {
-  const std::int64_t first = at_point_.emplace(point, vertex).first->second;
-  const std::int64_t first_of_side = of_side_.emplace(side, vertex).first->second;
-  unlike_ += !same_bits(t.position(vertex), t.position(first)) ||
-             (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)));
-}
+ private:
+  std::unordered_map<Lattice::Id, std::int64_t> at_point_;
+  std::unordered_map<Sides::Id, std::int64_t> of_side_;
+  std::int64_t unlike_ = 0;
+};
+
+}  // namespace
 
 Compared::Compared(const Evidence& e)
     : e_(e),
       same_(identity(e)),
       uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(),
                            [&](std::int32_t d) { return d == e.face_depth[0]; })) {
+  SharedPointBits shared;
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
     const Placed at = place(e, same_, e.tessellation, v);
     if (at.id == Lattice::kNone) continue;
@@ -102,8 +115,9 @@ Compared::Compared(const Evidence& e)
     if (!is_finite(e.tessellation, v))
       not_finite_.insert(at.id);
     else if (e.lattice.is_shared(at.id))
-      shared_.add(e.tessellation, v, at.id, at.side);
+      shared.add(e.tessellation, v, at.id, at.side);
   }
+  split_ = shared.unlike();
   for (Digest& d : several_) {
     const Vector normal = e.tessellation.has_normals() ? e.tessellation.normal(d.vertex) : Vector{};
     d.bits = digest(e.tessellation.position(d.vertex), e.tessellation.has_normals() ? &normal : nullptr);
@@ -177,7 +191,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.message =
         fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
-  if (shared_.unlike() == 0) c.split = shared.unlike();
+  if (split_ == 0) c.split = shared.unlike();
   // Next to deeper neighbours a face may be displayed deeper than asked for; which face is may depend on the
   // order.
   for (const auto& [id, vertex] : by_point_)
@@ -223,18 +237,12 @@ bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std
 }
 
 Breakdown breakdown_of(const std::exception& error) {
-  if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) {
-    switch (died->kind()) {
-      case SubjectDied::Kind::kTimeout:
-        return {Status::kTimeout, Origin::kLimit};
-      case SubjectDied::Kind::kMemory:
-        return {Status::kCrash, Origin::kLimit};
-      case SubjectDied::Kind::kProtocol:
-        return {Status::kFinding, Origin::kSubject};
-      case SubjectDied::Kind::kCrash:
-        return {Status::kCrash, Origin::kSubject};
-    }
-  }
+  using Kind = SubjectDied::Kind;
+  static const std::map<Kind, Breakdown> of_a_process{{Kind::kTimeout, {Status::kTimeout, Origin::kLimit}},
+                                                      {Kind::kMemory, {Status::kCrash, Origin::kLimit}},
+                                                      {Kind::kProtocol, {Status::kFinding, Origin::kSubject}},
+                                                      {Kind::kCrash, {Status::kCrash, Origin::kSubject}}};
+  if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) return of_a_process.at(died->kind());
   const auto* refusal = dynamic_cast<const SubjectError*>(&error);
   if (refusal == nullptr || refusal->status() == LC_FAILED) return {Status::kError, Origin::kSubject};
   return {refusal->status() == LC_NOT_SUPPORTED ? Status::kNotSupported : Status::kFinding, Origin::kSubject};

@@ -28,19 +28,6 @@ struct Comparison {
   std::string message;
 };
 
-/// Counts the vertices at shared points whose bits are not those of the first one there: of positions at the point, of
-/// normals at its side.
-class SharedPointBits {
- public:
-  void add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side);
-  std::int64_t unlike() const { return unlike_; }
-
- private:
-  std::unordered_map<Lattice::Id, std::int64_t> at_point_;
-  std::unordered_map<Sides::Id, std::int64_t> of_side_;
-  std::int64_t unlike_ = 0;
-};
-
 /// Compares with the tessellation of the evidence, which outlives this.
 class Compared {
  public:
@@ -79,7 +66,7 @@ class Compared {
   std::vector<Digest> several_;  // all vertices where a face delivers a point more than once, sorted
   std::unordered_map<Lattice::Id, std::int64_t> by_point_;
   std::unordered_set<Lattice::Id> not_finite_;  // points
-  SharedPointBits shared_;
+  std::int64_t split_ = 0;  // vertices at shared points that have other bits than the first one there
 };
 
 /// What a request came to that ended with an error.

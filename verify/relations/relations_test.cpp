@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -249,8 +250,9 @@ class Forgetful {
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const std::span depth(request.face_depth, mesh_.faces.size());
     Delivered copy(inner_.tessellate(depth, request.threads));
-    if (goes_wrong(*std::max_element(depth.begin(), depth.end()), request.threads) && !copy.positions.empty())
-      copy.positions[0][0] *= 1 + 0x1p-40;
+    const std::int32_t deepest =
+        std::accumulate(depth.begin(), depth.end(), 0, [](int a, int b) { return std::max(a, b); });
+    if (goes_wrong(deepest, request.threads) && !copy.positions.empty()) copy.positions[0][0] *= 1 + 0x1p-40;
     copy.hand_over<double>(request, out, /*with_normals=*/true, /*with_corners=*/!copy.corner.empty());
   }
 

@@ -9,6 +9,9 @@
 #include <set>
 #include <utility>
 
+#include "reference/mesh/sharpness.h"
+#include "reference/mesh/topology.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -203,40 +206,19 @@ bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
 Variants cut_by_hand(const Evidence& e) {
   Variant v = identity(e);
   v.name = "cut along its sharp edges, with a copy of their points for each side";
-  const Sides& sides = e.reference.sides();
   data::ControlMesh& mesh = v.mesh;
-  // Copies in the order of the sides of control vertices; each side of one is a vertex.
-  std::vector<Sides::Id> copied;
-  const auto vertex_count = static_cast<Lattice::Id>(mesh.positions.size());
-  for (Lattice::Id w = 0; w < vertex_count; ++w)
-    sides.for_each(w, [&](Sides::Id side) {
-      if (side != w) copied.push_back(side);
-    });
-  const auto number = [&](Sides::Id side) {
-    if (side < vertex_count) return static_cast<std::int32_t>(side);
-    const auto at = std::lower_bound(copied.begin(), copied.end(), side);
-    return static_cast<std::int32_t>(vertex_count + (at - copied.begin()));
-  };
-  for (const Sides::Id side : copied) mesh.positions.push_back(e.mesh.positions[sides.point(side)]);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::int32_t& w : mesh.faces[f]) w = number(sides.of(w, static_cast<std::int32_t>(f)));
-
-  // Vertices that are held: three lasting edges and more, a sharpness of their own, and, if the mesh says so,
-  // boundary vertices of one face; not the vertices of one face that the cut makes.
-  std::vector<bool> held(e.mesh.positions.size(), false);
-  const std::vector<int> count = lasting_edges_at(e.mesh, e.lattice);
-  std::vector<int> faces(held.size(), 0);
-  for (const std::int32_t w : e.mesh.faces.corners()) ++faces[w];
-  const bool corners = e.mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
-  for (std::size_t w = 0; w < held.size(); ++w) held[w] = count[w] > 2 || (corners && faces[w] == 1);
-  for (const data::SharpVertex& tag : e.mesh.sharpness.vertices) held[tag.vertex] = true;
-  data::Sharpness& sharp = mesh.sharpness;
-  sharp.edges.clear();
-  sharp.vertices.clear();
-  sharp.boundary = data::Boundary::kEdge;
-  for (std::int32_t w = 0; w < static_cast<std::int32_t>(mesh.positions.size()); ++w)
-    if (held[w < vertex_count ? w : sides.point(copied[w - vertex_count])])
-      sharp.vertices.push_back({w, data::kInfiniteSharpness});
+  const reference::Topology topology(mesh.positions.size(), mesh.faces);
+  const auto cut = reference::Sharpness(topology, mesh.sharpness).cut(topology);
+  mesh.faces = cut.faces;
+  // Of boundary vertices of one face those that the mesh holds stay held, not those that the cut makes.
+  mesh.sharpness.edges.clear();
+  mesh.sharpness.vertices.clear();
+  mesh.sharpness.boundary = data::Boundary::kEdge;
+  for (std::size_t w = 0; w < cut.origin.size(); ++w) {
+    if (w >= topology.vertex_count()) mesh.positions.push_back(e.mesh.positions[cut.origin[w]]);
+    if (cut.states[w] == reference::VertexState::kHeld)
+      mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(w), data::kInfiniteSharpness});
+  }
   return {v};
 }
 

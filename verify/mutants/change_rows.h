@@ -146,6 +146,21 @@ inline void outwards(A a, D out, std::size_t v, double by) {
   if (!out.normals.empty()) add(out.positions[v], out.normals[v], by * a.diagonal);
 }
 
+/// Moves the vertices that `is_off` names by their places along x by 1e-5 of the largest coordinate.
+inline Change moved(std::string name, std::string description, std::function<bool(A, const Place&)> is_off,
+                    const char* check = "positions") {
+  Change c = row(std::move(name), std::move(description), check);
+  c.deliver = [is_off](A a, D out) {
+    for (std::size_t v = 0; v < out.positions.size(); ++v)
+      if (is_off(a, out.place(v))) out.positions[v][0] += 1e-5 * a.largest;
+  };
+  return c;
+}
+/// Whether a vertex lies inside amid more faces than that; -1 is none.
+inline bool amid_more(A a, std::int32_t v, int most) {
+  return v >= 0 && a.inside(v) && a.faces(v) > most;
+}
+
 /// Where the points of each face lie in what was delivered, by their parameters.
 class Finder {
  public:

@@ -86,17 +86,9 @@ void forget_edges(A a, std::size_t room, D out) {
   });
 }
 
-// Along x by 1e-5 of the largest coordinate.
-void move(A a, D out, std::size_t v) {
-  out.positions[v][0] += 1e-5 * a.largest;
-}
 int component_of(A a, const Delivered& out, std::size_t v) {
   return a.component[a.mesh.faces[a.face_of(out.place(v))][0]];
 }
-bool is_extraordinary(A a, std::int32_t v) {
-  return a.inside(v) && a.faces(v) != 6;
-}
-
 Change memory(const char* name, const char* description, bool Delivered::*what) {
   return deliver(name, description, "written", [what](A, D out) { out.*what = true; });
 }
@@ -301,72 +293,51 @@ std::vector<Change> of_some_meshes() {
              for (std::size_t v = 0x10000; v < mesh.positions.size(); ++v)
                mesh.positions[v] = mesh.positions[v & 0xFFFF];
            }},
-      deliver(
-          "adjacent_extraordinary",
-          "in faces with two extraordinary vertices side by side, points are 1e-5 of the mesh off along x",
-          "positions",
-          [](A a, D out) {
-            elsewhere(a, out, [&](std::size_t v) {
-              const auto corners = a.mesh.faces[a.face_of(out.place(v))];
-              const auto some = [&](std::int32_t c) { return is_extraordinary(a, c); };
-              if (std::count_if(corners.begin(), corners.end(), some) > 1) move(a, out, v);
-            });
-          }),
-      deliver("depth_difference_3",
-              "in faces beside one whose depth differs by 3, points are 1e-5 of the mesh off along x",
-              "positions",
-              [](A a, D out) {
-                std::vector<bool> spoilt(a.mesh.faces.size(), false);
-                for (std::size_t f = 0; f < spoilt.size(); ++f)
-                  for (std::size_t k = 0; k < 3 && a.depth[f] >= 0; ++k)
-                    if (const int other = a.depth_beyond(f, k);
-                        other >= 0 && std::abs(a.depth[f] - other) == 3)
-                      spoilt[f] = true;
-                elsewhere(a, out, [&](std::size_t v) {
-                  if (spoilt[a.face_of(out.place(v))]) move(a, out, v);
-                });
-              }),
-      deliver("valence_above_40",
-              "limit points of vertices amid more than 40 faces are 1e-5 of the mesh off along x",
-              "positions",
-              [](A a, D out) {
-                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-                  if (a.inside(at) && a.faces(at) > 40) move(a, out, v);
-                });
-              }),
+      moved("adjacent_extraordinary",
+            "in faces with two extraordinary vertices side by side, points are 1e-5 of the mesh off along x",
+            [](A a, const Place& p) {
+              const auto corners = a.mesh.faces[a.face_of(p)];
+              return a.control_vertex(p) < 0 &&
+                     std::count_if(corners.begin(), corners.end(),
+                                   [&](std::int32_t v) { return a.inside(v) && a.faces(v) != 6; }) > 1;
+            }),
+      moved("depth_difference_3",
+            "in faces beside one whose depth differs by 3, points are 1e-5 of the mesh off along x",
+            [](A a, const Place& p) {
+              const auto beside = [&](std::size_t side) {
+                const int other = a.depth_beyond(a.face_of(p), side);
+                return other >= 0 && std::abs(a.depth[a.face_of(p)] - other) == 3;
+              };
+              return a.control_vertex(p) < 0 && (beside(0) || beside(1) || beside(2));
+            }),
+      moved("valence_above_40",
+            "limit points of vertices amid more than 40 faces are 1e-5 of the mesh off along x",
+            [](A a, const Place& p) { return amid_more(a, a.control_vertex(p), 40); }),
   };
 }
 
 }  // namespace
 
 HalfFan half_fan(const Delivered& out, const std::function<bool(const HalfFan&, std::size_t)>& wanted) {
-  for (std::size_t begin = 0; begin < out.triangles.size();) {
-    std::size_t end = begin;
-    while (end < out.triangles.size() && out.triangle_face[end] == out.triangle_face[begin]) ++end;
-    for (std::size_t t = begin; t < end; ++t) {
-      for (int k = 0; k < 3; ++k) {
-        // (m, a, x), (m, x, y), (m, y, b): each begins where the one before ends.
-        const std::uint32_t m = out.triangles[t][k], a = out.triangles[t][(k + 1) % 3];
-        HalfFan fan{{t, t, t}, m, a, out.triangles[t][(k + 2) % 3], 0, 0};
-        std::uint32_t last = fan.x;
-        std::size_t incident = 0, found = 1;
-        for (std::size_t round = 0; round < 2; ++round) {
-          for (std::size_t s = begin; s < end; ++s) {
-            for (int c = 0; c < 3; ++c) {
-              if (out.triangles[s][c] != m) continue;
-              incident += round == 0;
-              if (out.triangles[s][(c + 1) % 3] != last || found == 3) continue;
-              last = out.triangles[s][(c + 2) % 3];
-              fan.triangles[found++] = s;
-              (found == 2 ? fan.y : fan.b) = last;
-            }
-          }
-        }
-        if (found == 3 && wanted(fan, incident)) return fan;
-      }
+  // Of each corner of a face: the triangles there, (m, x, y), by their x.
+  using Around = std::map<std::uint32_t, std::pair<std::size_t, std::uint32_t>>;
+  std::map<std::pair<std::int32_t, std::uint32_t>, Around> around;
+  const auto corner = [&](std::size_t t, std::size_t k) { return out.triangles[t][k % 3]; };
+  for (std::size_t t = 0; t < out.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      around[{out.triangle_face[t], corner(t, k)}].try_emplace(corner(t, k + 1), t, corner(t, k + 2));
+  for (std::size_t t = 0; t < out.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t m = corner(t, k), a = corner(t, k + 1), x = corner(t, k + 2);
+      const Around& here = around.at({out.triangle_face[t], m});
+      const auto second = here.find(x);
+      if (second == here.end()) continue;
+      const auto third = here.find(second->second.second);
+      if (third == here.end()) continue;
+      const HalfFan fan{
+          {t, second->second.first, third->second.first}, m, a, x, third->first, third->second.second};
+      if (wanted(fan, here.size())) return fan;
     }
-    begin = end;
-  }
   nowhere("point to leave out");
 }
 

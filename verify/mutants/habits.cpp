@@ -92,16 +92,11 @@ void reverse(A, D out) {
 void cut_otherwise(A a, D out) {
   std::map<std::array<std::int64_t, 3>, std::size_t> waiting;  // face and edge -> triangle
   const auto place = [&](std::uint32_t v) { return out.place(v); };
-  const auto sum_is_same = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t s) {
-    const auto twice = [&](std::uint32_t u, std::uint32_t v, std::uint32_t Place::*l) {
-      return std::uint64_t{place(u).*l} * place(v).denominator +
-             std::uint64_t{place(v).*l} * place(u).denominator;
+  const auto sum = [&](std::uint32_t u, std::uint32_t v) {  // of their parameters
+    const auto of = [&](std::uint32_t w, std::uint32_t Place::*l) {
+      return static_cast<double>(place(w).*l) / place(w).denominator;
     };
-    const auto same = [&](std::uint32_t Place::*l) {
-      return twice(p, q, l) * place(r).denominator * place(s).denominator ==
-             twice(r, s, l) * place(p).denominator * place(q).denominator;
-    };
-    return same(&Place::i) && same(&Place::j);
+    return std::pair(of(u, &Place::i) + of(v, &Place::i), of(u, &Place::j) + of(v, &Place::j));
   };
   for (std::size_t t = 0; t < out.triangles.size(); ++t) {
     const std::int32_t face = out.triangle_face[t];
@@ -117,7 +112,7 @@ void cut_otherwise(A a, D out) {
         return place(v).face == face && place(v).corner == place(b).corner;
       };
       // Triangles that are cut from corner to corner of a polygon at depth 0 make no parallelogram.
-      if (!here(p) || !here(c) || !here(d) || place(b).face != face || !sum_is_same(p, d, b, c) ||
+      if (!here(p) || !here(c) || !here(d) || place(b).face != face || sum(p, d) != sum(b, c) ||
           (a.is_polygon(static_cast<std::size_t>(face)) && a.depth[static_cast<std::size_t>(face)] == 0))
         continue;
       waiting.erase(other);

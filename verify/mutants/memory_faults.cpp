@@ -77,21 +77,14 @@ Change one_ulp(const char* name, const char* description, const char* check, std
 using V = std::int32_t;
 using F = std::size_t;
 
-// Moves the vertices that `is_off` names by their places by 1e-5 of the mesh.
-std::function<void(A, D)> moved(std::function<bool(A, const Place&)> is_off) {
-  return [is_off](A a, D out) {
-    for (std::size_t v = 0; v < out.positions.size(); ++v)
-      if (is_off(a, out.place(v))) out.positions[v][0] += 1e-5 * a.largest;
-  };
-}
 // At control vertices.
 Change off(std::string name, std::string description, std::function<bool(A, V)> vertex,
            const char* check = "positions") {
-  Change c = on(On::kBoth, row(std::move(name), std::move(description), check));
-  c.deliver = moved([vertex](A a, const Place& p) {
+  const auto is_off = [vertex](A a, const Place& p) {
     const V at = a.control_vertex(p);
     return at >= 0 && vertex(a, at);
-  });
+  };
+  Change c = on(On::kBoth, moved(std::move(name), std::move(description), is_off, check));
   if (c.check == "positions")
     c.shows = [vertex](A a) {
       const auto all = a.mesh.faces.corners();
@@ -101,8 +94,9 @@ Change off(std::string name, std::string description, std::function<bool(A, V)> 
 }
 // Inside faces.
 Change inside(std::string name, std::string description, std::function<bool(A, F)> face) {
-  Change c = on(On::kBoth, row(std::move(name), std::move(description), "positions"));
-  c.deliver = moved([face](A a, const Place& p) { return inside_face(a, p) && face(a, a.face_of(p)); });
+  Change c = on(On::kBoth, moved(std::move(name), std::move(description), [face](A a, const Place& p) {
+                  return inside_face(a, p) && face(a, a.face_of(p));
+                }));
   c.shows = [face](A a) {
     F f = 0;
     while (f < a.mesh.faces.size() && !face(a, f)) ++f;
@@ -114,9 +108,6 @@ Change known(const std::string& name, const std::string& first, std::function<vo
   return on(On::kBoth, with(row("known_without_" + name,
                                 "meshes that are otherwise alike have the first one's " + first, "state"),
                             &Change::forget, std::move(forget)));
-}
-bool amid_more(A a, V v, int most) {
-  return a.inside(v) && a.faces(v) > most;
 }
 
 }  // namespace

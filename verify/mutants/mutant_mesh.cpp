@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/cut_out.h"
+#include "reference/catmull_clark/refine.h"
 #include "reference/loop/refine.h"
 
 namespace limitcheck::verify {
@@ -16,27 +17,17 @@ namespace {
 using reference::Sector, reference::Topology;
 using V = MutantRules::V;
 
-data::Faces refined_faces(const Topology& topology, bool quads) {
+// Four for each triangle: its directions stay those of the triangle in those at the corners.
+data::Faces refined_triangles(const Topology& topology) {
   const auto edges = static_cast<std::int32_t>(topology.vertex_count());
-  const auto middles = edges + static_cast<std::int32_t>(topology.edges().size());
   data::Faces refined;
   for (std::size_t f = 0; f < topology.faces().size(); ++f) {
     const auto c = topology.faces()[f];
-    const std::size_t n = c.size();
-    const auto edge = [&](std::size_t k) { return edges + topology.edge(f, k % n); };
-    if (quads) {
-      for (std::size_t k = 0; k < n; ++k) {
-        std::array quad{c[k], edge(k), middles + static_cast<std::int32_t>(f), edge(k + n - 1)};
-        // In a quad the directions of u and v stay, in another face it begins at the corner.
-        if (n == 4) std::rotate(quad.begin(), quad.end() - static_cast<std::ptrdiff_t>(k), quad.end());
-        refined.push_back(quad);
-      }
-    } else {
-      refined.push_back({c[0], edge(0), edge(2)});
-      refined.push_back({edge(0), c[1], edge(1)});
-      refined.push_back({edge(2), edge(1), c[2]});
-      refined.push_back({edge(1), edge(2), edge(0)});
-    }
+    const auto edge = [&](std::size_t k) { return edges + topology.edge(f, k); };
+    refined.push_back({c[0], edge(0), edge(2)});
+    refined.push_back({edge(0), c[1], edge(1)});
+    refined.push_back({edge(2), edge(1), c[2]});
+    refined.push_back({edge(1), edge(2), edge(0)});
   }
   return refined;
 }
@@ -164,16 +155,14 @@ V unit_or_up(const V& n) {
 MutantMesh MutantMesh::refined(const MutantRules& rules, int step, int depth) const {
   MutantRules::Points next = rules.refine(topology, points, tags, step, depth);
   const bool quads = next.size() > points.size() + topology.edges().size();
-  Topology finer(next.size(), refined_faces(topology, quads));
+  Topology finer(next.size(),
+                 quads ? reference::catmull_clark::refined_faces(topology) : refined_triangles(topology));
   MutantTags its = tags.refined(topology, finer);
   return {std::move(finer), std::move(next), std::move(its)};
 }
 
 MutantMesh MutantMesh::around(std::vector<std::int32_t> faces, std::int32_t& v) const {
-  for (std::size_t k = 0, given = faces.size(); k < given; ++k)
-    for (const std::int32_t corner : topology.faces()[faces[k]])
-      for (const std::int32_t near : topology.sector(corner).faces)
-        if (std::find(faces.begin(), faces.end(), near) == faces.end()) faces.push_back(near);
+  faces = reference::support_of(std::move(faces), topology, data::Creasing::kUniform);
   const data::CutOut part = data::cut_out(topology.faces(), faces);
   Topology local(part.vertices.size(), part.faces);
   MutantTags its = tags.of_part(topology, local, part.vertices);

@@ -13,6 +13,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -101,44 +102,14 @@ class Frame {
     if (deeper > 0 && may_be_fan && shallow)
       fan();
     else
-      lattice(own);
-  }
-
-  void lattice(int depth) {
-    const std::int64_t step = n_ >> depth, most = domain_.denominator(n_);
-    if (domain_.parts() > 1 && depth == 0) {
-      for (int k = 1; k + 1 < domain_.corners(); ++k)
-        emit({domain_.corner_point(0, n_), domain_.corner_point(k, n_), domain_.corner_point(k + 1, n_)});
-      return;
-    }
-    const bool triangle = settings_.scheme == data::Scheme::kLoop;
-    for (std::int32_t part = 0; part < domain_.parts(); ++part)
-      for (std::int64_t j = 0; j < most; j += step)
-        for (std::int64_t i = 0; i < (triangle ? most - j : most); i += step) {
-          const auto at = [&](std::int64_t di, std::int64_t dj) {
-            return Point{i + di * step, j + dj * step, part};
-          };
-          emit({at(0, 0), at(1, 0), triangle ? at(0, 1) : at(1, 1)});
-          if (!triangle)
-            emit({at(0, 0), at(1, 1), at(0, 1)});
-          else if (i + j + step < most)
-            emit({at(1, 0), at(1, 1), at(0, 1)});
-        }
-  }
-
-  // Steps along a side at which a point lies, or -1 beside it.
-  std::int64_t along(const Point& p, int side) const {
-    const auto at = domain_.side_of(p, n_);
-    if (!at) return -1;
-    if (at->side == side) return at->along;
-    return at->along == 0 && at->side == domain_.next(side) ? n_ : -1;
+      domain_.for_each_triangle(n_, n_ >> own, [&](Point a, Point b, Point c) { emit({a, b, c}); });
   }
 
   // A triangle, cut where it lies along a side that has more points.
   void emit(const std::array<Point, 3>& t) {
     for (std::size_t k = 0; k < 3; ++k)
       for (int side = 0; side < domain_.corners(); ++side) {
-        const std::int64_t from = along(t[k], side), to = along(t[(k + 1) % 3], side);
+        const std::int64_t from = domain_.along(t[k], side, n_), to = domain_.along(t[(k + 1) % 3], side, n_);
         const std::int64_t step = n_ >> sides_[static_cast<std::size_t>(side)];
         if (from < 0 || to < 0 || to - from <= step) continue;
         for (std::int64_t at = from; at < to; at += step)
@@ -226,7 +197,7 @@ class ModelSubject {
       : settings_(options, kScheme), rules_(settings_.rules()), control_(control_mesh(mesh)) {
     if (control_.faces.empty()) throw SubjectError(LC_INVALID_INPUT, "the mesh has no faces");
     try {
-      topology_ = std::make_unique<reference::Topology>(control_.positions.size(), control_.faces);
+      topology_.emplace(control_.positions.size(), control_.faces);
     } catch (const data::ArgumentError& error) {
       throw SubjectError(LC_INVALID_INPUT, error.what());
     }
@@ -249,7 +220,7 @@ class ModelSubject {
   const Settings settings_;
   const std::unique_ptr<MutantRules> rules_;
   const data::ControlMesh control_;
-  std::unique_ptr<reference::Topology> topology_;
+  std::optional<reference::Topology> topology_;
 };
 
 }  // namespace

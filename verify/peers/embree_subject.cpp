@@ -13,6 +13,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,18 +29,13 @@ namespace {
 
 using namespace limitcheck::verify;
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+template <auto release>
+struct Release {
+  void operator()(auto* of) const { release(of); }
 };
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-struct ReleaseGeometry {
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
-using Scene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-using Geometry = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
+using Device = std::unique_ptr<RTCDeviceTy, Release<rtcReleaseDevice>>;
+using Scene = std::unique_ptr<RTCSceneTy, Release<rtcReleaseScene>>;
+using Geometry = std::unique_ptr<RTCGeometryTy, Release<rtcReleaseGeometry>>;
 
 // One face after another.
 class FaceOfGeometry {
@@ -78,17 +74,15 @@ class EmbreeSubject {
     if (device_ == nullptr) throw SubjectError(LC_FAILED, "Embree makes no device");
     geometry_.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SUBDIVISION));
     auto* const position =
-        buffer<float>(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 4 * sizeof(float), mesh.vertex_count);
-    for (std::size_t v = 0; v < static_cast<std::size_t>(mesh.vertex_count); ++v) {
-      for (std::size_t c = 0; c < 3; ++c) position[4 * v + c] = static_cast<float>(mesh.positions[3 * v + c]);
-      position[4 * v + 3] = 0;
+        buffer<std::array<float, 4>>(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertex_count);
+    for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
+      position[v] = {};
+      std::copy_n(mesh.positions + 3 * v, 3, position[v].begin());
     }
-    auto* const corner = buffer<std::uint32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, sizeof(std::uint32_t),
-                                               mesh.corner_count);
-    std::copy(mesh.corners, mesh.corners + mesh.corner_count, corner);
-    auto* const size =
-        buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, sizeof(std::uint32_t), mesh.face_count);
-    std::copy(mesh.face_sizes, mesh.face_sizes + mesh.face_count, size);
+    std::copy_n(mesh.corners, mesh.corner_count,
+                buffer<std::uint32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, mesh.corner_count));
+    std::copy_n(mesh.face_sizes, mesh.face_count,
+                buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, mesh.face_count));
     hand_over_sharpness();
     rtcSetGeometrySubdivisionMode(
         geometry_.get(), 0,
@@ -110,39 +104,36 @@ class EmbreeSubject {
 
  private:
   template <class T>
-  T* buffer(RTCBufferType type, RTCFormat format, std::size_t stride, std::int64_t count) {
+  T* buffer(RTCBufferType type, RTCFormat format, std::int64_t count) {
     void* const memory =
-        rtcSetNewGeometryBuffer(geometry_.get(), type, 0, format, stride, static_cast<std::size_t>(count));
+        rtcSetNewGeometryBuffer(geometry_.get(), type, 0, format, sizeof(T), static_cast<std::size_t>(count));
     if (memory == nullptr) throw SubjectError(LC_FAILED, "Embree makes no buffer");
     return static_cast<T*>(memory);
   }
 
   void hand_over_sharpness() {
-    const auto weight = [](float sharpness) {
-      return sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity()
-                                                               : sharpness;
+    const auto weight = [](const auto& tag) {
+      return tag.sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity()
+                                                                   : tag.sharpness;
     };
-    if (mesh_.sharp_edge_count > 0) {
-      auto* const ends = buffer<std::uint32_t>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX, RTC_FORMAT_UINT2,
-                                               2 * sizeof(std::uint32_t), mesh_.sharp_edge_count);
-      auto* const weights = buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, sizeof(float),
-                                          mesh_.sharp_edge_count);
-      for (std::int64_t k = 0; k < mesh_.sharp_edge_count; ++k) {
-        const lc_sharp_edge& edge = mesh_.sharp_edges[k];
-        ends[2 * k] = static_cast<std::uint32_t>(edge.a);
-        ends[2 * k + 1] = static_cast<std::uint32_t>(edge.b);
-        weights[k] = weight(edge.sharpness);
-      }
+    if (const std::int64_t count = mesh_.sharp_edge_count; count > 0) {
+      const lc_sharp_edge* const edges = mesh_.sharp_edges;
+      std::transform(
+          edges, edges + count,
+          buffer<std::array<std::uint32_t, 2>>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX, RTC_FORMAT_UINT2, count),
+          [](const lc_sharp_edge& e) {
+            return std::array{static_cast<std::uint32_t>(e.a), static_cast<std::uint32_t>(e.b)};
+          });
+      std::transform(edges, edges + count,
+                     buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count), weight);
     }
-    if (mesh_.sharp_vertex_count > 0) {
-      auto* const vertices = buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT,
-                                                   sizeof(std::uint32_t), mesh_.sharp_vertex_count);
-      auto* const weights = buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT,
-                                          sizeof(float), mesh_.sharp_vertex_count);
-      for (std::int64_t k = 0; k < mesh_.sharp_vertex_count; ++k) {
-        vertices[k] = static_cast<std::uint32_t>(mesh_.sharp_vertices[k].vertex);
-        weights[k] = weight(mesh_.sharp_vertices[k].sharpness);
-      }
+    if (const std::int64_t count = mesh_.sharp_vertex_count; count > 0) {
+      const lc_sharp_vertex* const vertices = mesh_.sharp_vertices;
+      std::transform(vertices, vertices + count,
+                     buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT, count),
+                     [](const lc_sharp_vertex& v) { return static_cast<std::uint32_t>(v.vertex); });
+      std::transform(vertices, vertices + count,
+                     buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count), weight);
     }
   }
 

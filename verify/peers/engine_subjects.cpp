@@ -247,7 +247,9 @@ class EngineSubject {
 // and none may report an empty delivery as correct.
 class NullSubject {
  public:
-  static lc_capabilities capabilities(Options&) {
+  static constexpr std::int32_t kSchemes = LC_DOES_LOOP;
+
+  static lc_capabilities capabilities(Options&, lc_scheme) {
     return {LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 1};
   }
   NullSubject(const lc_mesh&, Options&) {}

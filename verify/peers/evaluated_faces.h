@@ -55,29 +55,18 @@ inline FacePattern quads_pattern(int corners, int depth) {
   const FaceDomain domain(data::Scheme::kCatmullClark, corners);
   const std::int64_t n = std::int64_t{1} << depth;
   FacePattern pattern;
-  if (domain.parts() > 1 && depth == 0) {
-    pattern.denominator = 1;
-    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(corners); ++k) {
-      pattern.points.push_back({0, 0, static_cast<std::int32_t>(k)});
-      if (k > 1) pattern.triangles.push_back({0, k - 1, k});
-    }
-    return pattern;
-  }
-  pattern.denominator = static_cast<std::uint32_t>(domain.denominator(n));
+  pattern.denominator = static_cast<std::uint32_t>(std::max<std::int64_t>(1, domain.denominator(n)));
   std::vector<std::uint32_t> number(static_cast<std::size_t>(domain.point_count(n)));
+  const auto at = [&](FaceDomain::Point p) -> std::uint32_t& {
+    return number[static_cast<std::size_t>(domain.number(p, n))];
+  };
   domain.for_each_point(n, [&](FaceDomain::Point p) {
-    number[static_cast<std::size_t>(domain.number(p, n))] = static_cast<std::uint32_t>(pattern.points.size());
+    at(p) = static_cast<std::uint32_t>(pattern.points.size());
     pattern.points.push_back(p);
   });
-  const auto at = [&](std::int64_t i, std::int64_t j, std::int32_t part) {
-    return number[static_cast<std::size_t>(domain.number({i, j, part}, n))];
-  };
-  for (std::int32_t part = 0; part < domain.parts(); ++part)
-    for (std::int64_t j = 0; j < pattern.denominator; ++j)
-      for (std::int64_t i = 0; i < pattern.denominator; ++i) {
-        pattern.triangles.push_back({at(i, j, part), at(i + 1, j, part), at(i + 1, j + 1, part)});
-        pattern.triangles.push_back({at(i, j, part), at(i + 1, j + 1, part), at(i, j + 1, part)});
-      }
+  domain.for_each_triangle(n, 1, [&](FaceDomain::Point a, FaceDomain::Point b, FaceDomain::Point c) {
+    pattern.triangles.push_back({at(a), at(b), at(c)});
+  });
   return pattern;
 }
 

@@ -45,18 +45,10 @@ struct Corner {
   FaceDomain::Point at;
 };
 
-// In the order of their bits.
-bool before(const Vec3& a, const Vec3& b) {
-  const auto bits = [](const Vec3& p) {
-    return std::array{std::bit_cast<std::uint64_t>(p.x), std::bit_cast<std::uint64_t>(p.y),
-                      std::bit_cast<std::uint64_t>(p.z)};
-  };
-  return bits(a) < bits(b);
-}
-
 // Puts the lesser of both, by their bits, in place of the first.
 void agree(Vec3& a, const Vec3& b) {
-  if (before(b, a)) a = b;
+  using Bits = std::array<std::uint64_t, 3>;
+  if (std::bit_cast<Bits>(b) < std::bit_cast<Bits>(a)) a = b;
 }
 
 // The vertices, one for each lattice point, and the triangles of one face.

@@ -97,8 +97,8 @@ inline std::vector<Named> lines(float s, float t) {
           with("a ring and a crossing", ring, across, up)};
 }
 
-/// Meshes of quads and other polygons, with sharpness below 3.
-inline std::vector<Named> sharp_polygons() {
+/// Meshes of triangles, or of quads and other polygons, with sharpness below 3.
+inline std::vector<Named> sharp_shapes(bool triangles) {
   std::vector<Named> all;
   const auto add = [&](const std::string& name, data::ControlMesh mesh) {
     mesh.sharpness.boundary = data::Boundary::kEdge;
@@ -106,6 +106,29 @@ inline std::vector<Named> sharp_polygons() {
     mesh.sharpness.boundary = data::Boundary::kEdgeAndCorner;
     all.emplace_back(name + ", corners held", std::move(mesh));
   };
+  const auto held = [&](const std::string& name, data::ControlMesh mesh, float s) {
+    mesh.sharpness.vertices.push_back({0, s});
+    add(name + ", " + std::to_string(s), std::move(mesh));
+  };
+  const auto creased = [&](const std::string& name, data::ControlMesh mesh, float s, const auto& is_sharp) {
+    for (int k = 0; const auto& [a, b] : edges_of(mesh))
+      if (is_sharp(k++, a, b)) mesh.sharpness.edges.push_back({a, b, s});
+    add(name + ", " + std::to_string(s), std::move(mesh));
+  };
+  for (const int n : {3, 4, 5, 6, 7, 8, 12}) add("dart " + std::to_string(n), data::dart(n, triangles));
+  for (int k = 2; k <= 6; ++k) add("corner of creases " + std::to_string(k), data::corner(k, triangles));
+  for (const float s : {kInfinite, 0.375F, 1.0F, 2.8125F}) {
+    for (int k = 1; k <= (triangles ? 8 : 6); ++k)  // sectors of a corner
+      held("corner " + std::to_string(k), triangles ? data::fan(k) : data::quad_fan(k, 11), s);
+    for (const int n : {3, 4, 5, 6, 8, 12})
+      held("spike " + std::to_string(n), triangles ? data::wheel(n) : data::quad_wheel(n, 7), s);
+    for (int edges = 1; triangles && edges <= 12; ++edges)
+      creased("octahedron " + std::to_string(edges), data::octahedron(), s,
+              [&](int k, int, int) { return k < edges; });
+    if (!triangles)
+      creased("rim of a prism", data::polygon_prism(5), s, [](int, int a, int b) { return a < 5 && b < 5; });
+  }
+  if (triangles) return all;
   for (const auto& [s, t] : {std::pair{kInfinite, kInfinite},
                              {kInfinite, 1.375F},
                              {0.5625F, 2.1875F},
@@ -116,62 +139,14 @@ inline std::vector<Named> sharp_polygons() {
                              {3, kInfinite}})
     for (const auto& [name, mesh] : lines(s, t))
       add(name + ", " + std::to_string(s) + " " + std::to_string(t), mesh);
-  for (const int n : {3, 4, 5, 6, 7, 8, 12}) add("dart " + std::to_string(n), data::dart(n, false));
-  for (int k = 2; k <= 6; ++k) add("corner of creases " + std::to_string(k), data::corner(k, false));
-  for (int s = 1; s <= 3; ++s)
-    add("ring " + std::to_string(s), data::crease_ring(static_cast<std::uint64_t>(s)));
-  add("ring", data::crease_ring(10));
-  for (const float s : {kInfinite, 0.375F, 1.0F, 2.8125F}) {
-    for (int k = 1; k <= 6; ++k) {  // sectors of a corner
-      data::ControlMesh fan = data::quad_fan(k, 11);
-      fan.sharpness.vertices.push_back({0, s});
-      add("corner " + std::to_string(k) + ", " + std::to_string(s), fan);
-    }
-    for (const int n : {3, 4, 5, 6, 8, 12}) {
-      data::ControlMesh wheel = data::quad_wheel(n, 7);
-      wheel.sharpness.vertices.push_back({0, s});
-      add("spike " + std::to_string(n) + ", " + std::to_string(s), wheel);
-    }
-    data::ControlMesh prism = data::polygon_prism(5);
-    for (const auto& [a, b] : edges_of(prism))
-      if (a < 5 && b < 5) prism.sharpness.edges.push_back({a, b, s});
-    add("rim of a prism, " + std::to_string(s), prism);
-  }
+  for (const std::uint64_t s : {1, 2, 3, 10}) add("ring " + std::to_string(s), data::crease_ring(s));
   return all;
 }
-
-/// Meshes of triangles, likewise.
+inline std::vector<Named> sharp_polygons() {
+  return sharp_shapes(false);
+}
 inline std::vector<Named> sharp_triangles() {
-  std::vector<Named> all;
-  const auto add = [&](const std::string& name, data::ControlMesh mesh) {
-    mesh.sharpness.boundary = data::Boundary::kEdge;
-    all.emplace_back(name, mesh);
-    mesh.sharpness.boundary = data::Boundary::kEdgeAndCorner;
-    all.emplace_back(name + ", corners held", std::move(mesh));
-  };
-  for (const int n : {3, 4, 5, 6, 7, 8, 12}) add("dart " + std::to_string(n), data::dart(n, true));
-  for (int k = 2; k <= 6; ++k) add("corner of creases " + std::to_string(k), data::corner(k, true));
-  for (const float s : {kInfinite, 0.375F, 1.0F, 2.8125F}) {
-    for (int k = 1; k <= 8; ++k) {
-      data::ControlMesh fan = data::fan(k);
-      fan.sharpness.vertices.push_back({0, s});
-      add("corner " + std::to_string(k) + ", " + std::to_string(s), fan);
-    }
-    for (const int n : {3, 4, 5, 6, 8, 12}) {
-      data::ControlMesh wheel = data::wheel(n);
-      wheel.sharpness.vertices.push_back({0, s});
-      add("spike " + std::to_string(n) + ", " + std::to_string(s), wheel);
-    }
-    for (int edges = 1; edges <= 12; ++edges) {
-      data::ControlMesh mesh = data::octahedron();
-      const auto of = edges_of(mesh);
-      for (int k = 0; k < edges; ++k)
-        mesh.sharpness.edges.push_back(
-            {of[static_cast<std::size_t>(k)].first, of[static_cast<std::size_t>(k)].second, s});
-      add("octahedron " + std::to_string(edges) + ", " + std::to_string(s), mesh);
-    }
-  }
-  return all;
+  return sharp_shapes(true);
 }
 
 }  // namespace limitcheck::verify::test

@@ -232,7 +232,9 @@ TEST(Recognise, WarrensWeights) {
 template <Vector (*kAt)(const data::ControlMesh&, const lc_provenance&)>
 class Elsewhere {
  public:
-  static lc_capabilities capabilities(Options&) {
+  static constexpr std::int32_t kSchemes = LC_DOES_LOOP;
+
+  static lc_capabilities capabilities(Options&, lc_scheme) {
     lc_capabilities c{};
     const char* message = nullptr;
     lc_subject_cgal()->capabilities(nullptr, &c, &message);

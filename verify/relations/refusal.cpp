@@ -127,20 +127,19 @@ std::vector<Result> must_refuse(const std::vector<AuditSubject>& subjects,
   for (const AuditSubject& s : subjects)
     for (const AuditMesh& m : meshes) {
       Refusal refusal = ask_for_refusal(s, m.mesh, m.scheme(), threads);
-      Result r;
-      r.subject = s.label();
-      r.mesh = m.name;
-      r.scheme = m.scheme();
-      r.triangulated = m.triangulated;
-      r.check = "rejected-inputs";
-      r.status = refusal.status;
-      r.origin = refusal.origin;
-      r.unit = "meshes";
-      r.of = 1;
+      Result r{.subject = s.label(),
+               .mesh = m.name,
+               .check = "rejected-inputs",
+               .scheme = m.scheme(),
+               .triangulated = m.triangulated,
+               .status = refusal.status,
+               .of = 1,
+               .bound = 0,
+               .unit = "meshes",
+               .message = std::move(refusal.message),
+               .origin = refusal.origin};
       r.bad = is_bad(r);
-      r.bound = 0;
       if (r.status == Status::kFinding) r.accepted.emplace_back("accepted");
-      r.message = std::move(refusal.message);
       results.push_back(std::move(r));
     }
   return results;

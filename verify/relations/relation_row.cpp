@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -75,22 +76,34 @@ bool same_arrays(const Tessellation& a, const Tessellation& b) {
          same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face());
 }
 
+// Counts the vertices at shared points whose bits are not those of the first one there: of positions at the point, of
+// normals at its side.
+class SharedPointBits {
+ public:
+  void add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side) {
+    const std::int64_t first = at_point_.emplace(point, vertex).first->second;
+    const std::int64_t first_of_side = of_side_.emplace(side, vertex).first->second;
+    unlike_ += !same_bits(t.position(vertex), t.position(first)) ||
+               (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)));
+  }
+  std::int64_t unlike() const { return unlike_; }
+
+ private:
+  std::unordered_map<Lattice::Id, std::int64_t> at_point_;
+  std::unordered_map<Sides::Id, std::int64_t> of_side_;
+  std::int64_t unlike_ = 0;
+};
+
 }  // namespace
 
-void SharedPointBits::add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side) {
-  const std::int64_t first = at_point_.emplace(point, vertex).first->second;
-  const std::int64_t first_of_side = of_side_.emplace(side, vertex).first->second;
-  unlike_ += !same_bits(t.position(vertex), t.position(first)) ||
-             (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)));
-}
-
 Compared::Compared(const Evidence& e)
-    : e_(e), uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(), [&](std::int32_t d) {
-        return d == e.face_depth[0];
-      })) {
-  const Variant same = identity(e);
+    : e_(e),
+      same_(identity(e)),
+      uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(),
+                           [&](std::int32_t d) { return d == e.face_depth[0]; })) {
+  SharedPointBits shared;
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
-    const Placed at = place(e, same, e.tessellation, v);
+    const Placed at = place(e, same_, e.tessellation, v);
     if (at.id == Lattice::kNone) continue;
     const auto [known, is_new] = by_face_.try_emplace(*at.face_and_point, Delivered{v, v});
     if (!is_new) {
@@ -102,8 +115,9 @@ Compared::Compared(const Evidence& e)
     if (!is_finite(e.tessellation, v))
       not_finite_.insert(at.id);
     else if (e.lattice.is_shared(at.id))
-      shared_.add(e.tessellation, v, at.id, at.side);
+      shared.add(e.tessellation, v, at.id, at.side);
   }
+  split_ = shared.unlike();
   for (Digest& d : several_) {
     const Vector normal = e.tessellation.has_normals() ? e.tessellation.normal(d.vertex) : Vector{};
     d.bits = digest(e.tessellation.position(d.vertex), e.tessellation.has_normals() ? &normal : nullptr);
@@ -177,7 +191,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.message =
         fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
-  if (shared_.unlike() == 0) c.split = shared.unlike();
+  if (split_ == 0) c.split = shared.unlike();
   // Next to deeper neighbours a face may be displayed deeper than asked for; which face is may depend on the
   // order.
   for (const auto& [id, vertex] : by_point_)
@@ -186,6 +200,19 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
       ++c.bad;
       c.message = "a point of the original is missing";
     }
+  return c;
+}
+
+Comparison Compared::bits_with(const Tessellation& t, const char* where) const {
+  Comparison c = with(t, same_, 0);
+  const Tessellation& mine = e_.tessellation;
+  if (t.vertex_count() != mine.vertex_count() || t.triangle_count() != mine.triangle_count()) {
+    c.bad += 1;
+    c.message = fmt::format("{} vertices and {} triangles, but {} and {} {}", t.vertex_count(),
+                            t.triangle_count(), mine.vertex_count(), mine.triangle_count(), where);
+  }
+  c.bad = std::max(c.bad, c.other_bits);
+  c.worst = static_cast<double>(c.bad);
   return c;
 }
 
@@ -210,18 +237,12 @@ bool Compared::same(const Tessellation& t, std::int64_t k, const Variant& v, std
 }
 
 Breakdown breakdown_of(const std::exception& error) {
-  if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) {
-    switch (died->kind()) {
-      case SubjectDied::Kind::kTimeout:
-        return {Status::kTimeout, Origin::kLimit};
-      case SubjectDied::Kind::kMemory:
-        return {Status::kCrash, Origin::kLimit};
-      case SubjectDied::Kind::kProtocol:
-        return {Status::kFinding, Origin::kSubject};
-      case SubjectDied::Kind::kCrash:
-        return {Status::kCrash, Origin::kSubject};
-    }
-  }
+  using Kind = SubjectDied::Kind;
+  static const std::map<Kind, Breakdown> of_a_process{{Kind::kTimeout, {Status::kTimeout, Origin::kLimit}},
+                                                      {Kind::kMemory, {Status::kCrash, Origin::kLimit}},
+                                                      {Kind::kProtocol, {Status::kFinding, Origin::kSubject}},
+                                                      {Kind::kCrash, {Status::kCrash, Origin::kSubject}}};
+  if (const auto* died = dynamic_cast<const SubjectDied*>(&error)) return of_a_process.at(died->kind());
   const auto* refusal = dynamic_cast<const SubjectError*>(&error);
   if (refusal == nullptr || refusal->status() == LC_FAILED) return {Status::kError, Origin::kSubject};
   return {refusal->status() == LC_NOT_SUPPORTED ? Status::kNotSupported : Status::kFinding, Origin::kSubject};
@@ -232,12 +253,8 @@ RelationRow::RelationRow(const AuditSubject& subject, const Evidence& e, std::st
     : subject_(subject), e_(e), r_(e.result(name, unit, bound)) {}
 
 void RelationRow::ask(const std::string& what, const data::ControlMesh& mesh,
-                      const std::function<void(Session&)>& work) {
-  ask(subject_, what, mesh, work);
-}
-
-void RelationRow::ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
-                      const std::function<void(Session&)>& work) {
+                      const std::function<void(Session&)>& work, const AuditSubject* other) {
+  const AuditSubject& subject = other != nullptr ? *other : subject_;
   try {
     Session session(*subject.subject, mesh, subject.options, Session::Input::kValid, e_.lattice.scheme());
     work(session);
@@ -302,7 +319,6 @@ void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence&
   std::optional<InTurns> here;
   if (subject.in_turns == nullptr) here.emplace(*subject.subject);
   AuditSubject turns{here ? &here->subject() : subject.in_turns, subject.options};
-  const Variant mine = identity(e);
   std::string what = kTurns[0];
   const auto ask = [&](Session& session, int threads) {
     const Tessellation t = session.tessellate(e.face_depth, threads);
@@ -311,28 +327,22 @@ void ask_in_turns(RelationRow& row, const AuditSubject& subject, const Evidence&
       row.count(0, t.vertex_count());
       return;
     }
-    Comparison c = compared.with(t, mine, 0);
-    if (t.vertex_count() != e.tessellation.vertex_count() ||
-        t.triangle_count() != e.tessellation.triangle_count()) {
-      c.bad += 1;
-      c.message =
-          fmt::format("{} vertices and {} triangles, but {} and {} at first", t.vertex_count(),
-                      t.triangle_count(), e.tessellation.vertex_count(), e.tessellation.triangle_count());
-    }
-    c.bad = std::max(c.bad, c.other_bits);
-    c.worst = static_cast<double>(c.bad);
-    row.judge(what, c, false);
+    row.judge(what, compared.bits_with(t, "at first"), false);
   };
-  row.ask(turns, what, e.mesh, [&](Session& session) {
-    for (std::size_t k = 0; k < kTurns.size(); ++k) {
-      what = kTurns[k];
-      ask(session, k == 3 ? 8 : 1);
-    }
-  });
+  row.ask(
+      what, e.mesh,
+      [&](Session& session) {
+        for (std::size_t k = 0; k < kTurns.size(); ++k) {
+          what = kTurns[k];
+          ask(session, k == 3 ? 8 : 1);
+        }
+      },
+      &turns);
   for (const First& first : kFirst) {
     turns.options = first.option + subject.options;
     what = first.what;
-    row.ask(turns, what, e.mesh, [&](Session& session) { ask(session, 1); });
+    row.ask(
+        what, e.mesh, [&](Session& session) { ask(session, 1); }, &turns);
   }
 }
 

@@ -28,19 +28,6 @@ struct Comparison {
   std::string message;
 };
 
-/// Counts the vertices at shared points whose bits are not those of the first one there: of positions at the point, of
-/// normals at its side.
-class SharedPointBits {
- public:
-  void add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side);
-  std::int64_t unlike() const { return unlike_; }
-
- private:
-  std::unordered_map<Lattice::Id, std::int64_t> at_point_;
-  std::unordered_map<Sides::Id, std::int64_t> of_side_;
-  std::int64_t unlike_ = 0;
-};
-
 /// Compares with the tessellation of the evidence, which outlives this.
 class Compared {
  public:
@@ -50,6 +37,9 @@ class Compared {
   /// finite on either side are left out, as long as there are no more of them than in the original. What faces share
   /// has to have equal bits in each variant, if it has in the original: how a mesh is written is no excuse.
   Comparison with(const Tessellation& t, const Variant& v, double slack) const;
+  /// `t` is what the subject made of the same request: each bit that differs is bad.
+  ///   where   the first answer is, for the message: "in the first"
+  Comparison bits_with(const Tessellation& t, const char* where) const;
 
  private:
   using Key = std::int64_t;  // of a point and a face
@@ -70,12 +60,13 @@ class Compared {
                                              Key key) const;
 
   const Evidence& e_;
+  const Variant same_;
   const bool uniform_;
   std::unordered_map<Key, Delivered> by_face_;
   std::vector<Digest> several_;  // all vertices where a face delivers a point more than once, sorted
   std::unordered_map<Lattice::Id, std::int64_t> by_point_;
   std::unordered_set<Lattice::Id> not_finite_;  // points
-  SharedPointBits shared_;
+  std::int64_t split_ = 0;  // vertices at shared points that have other bits than the first one there
 };
 
 /// What a request came to that ended with an error.
@@ -98,11 +89,9 @@ class RelationRow {
   /// Opens a session for one mesh and calls `work` with it, which may tessellate any number of times.
   /// Whatever `work` or the end of the session throws is noted together with `what`, which `work` may have
   /// changed.
-  void ask(const std::string& what, const data::ControlMesh& mesh, const std::function<void(Session&)>& work);
-
-  /// The same with another subject.
-  void ask(const AuditSubject& subject, const std::string& what, const data::ControlMesh& mesh,
-           const std::function<void(Session&)>& work);
+  ///   other   the subject that is asked in place of the row's
+  void ask(const std::string& what, const data::ControlMesh& mesh, const std::function<void(Session&)>& work,
+           const AuditSubject* other = nullptr);
 
   /// Notes defects of the arrays, unless the tessellation of the evidence has some too.
   void inspect(const std::string& what, const Tessellation& t);

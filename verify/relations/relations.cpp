@@ -74,7 +74,6 @@ class Relations {
 
   Result determinism() const {
     RelationRow row = begin("determinism", "points", 0);
-    const Variant same = identity(e_);
     int request = 1;
     std::string what = "asked again";
     row.ask(what, e_.mesh, [&](Session& session) {
@@ -82,17 +81,7 @@ class Relations {
         what = fmt::format("request {}, threads: {}", ++request, threads);
         const Tessellation t = session.tessellate(e_.face_depth, threads);
         row.inspect(what, t);
-        Comparison c = compared_.with(t, same, 0);
-        const Tessellation& mine = e_.tessellation;
-        if (t.vertex_count() != mine.vertex_count() || t.triangle_count() != mine.triangle_count()) {
-          c.bad += 1;
-          c.message =
-              fmt::format("{} vertices and {} triangles, but {} and {} in the first", t.vertex_count(),
-                          t.triangle_count(), mine.vertex_count(), mine.triangle_count());
-        }
-        c.bad = std::max(c.bad, c.other_bits);
-        c.worst = static_cast<double>(c.bad);
-        row.judge(what, c, false);
+        row.judge(what, compared_.bits_with(t, "in the first"), false);
       }
     });
     deep_determinism(row);
@@ -308,10 +297,8 @@ class Relations {
 const std::vector<std::string_view>& relation_rows() {
   static const std::vector<std::string_view> rows = [] {
     std::vector<std::string_view> names{"determinism"};
-    for (const Relation& r : variant_relations()) names.push_back(r.row);
-    for (const Relation& r : sharp_relations()) names.push_back(r.row);
-    names.emplace_back("fractional-sharpness");
-    names.insert(names.end(), {"state", "degenerate-geometry", "rejected-inputs"});
+    for (const Relation& r : surface_relations()) names.push_back(r.row);
+    names.insert(names.end(), {"fractional-sharpness", "state", "degenerate-geometry", "rejected-inputs"});
     return names;
   }();
   return rows;
@@ -320,7 +307,7 @@ const std::vector<std::string_view>& relation_rows() {
 std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme) {
   std::vector<std::string_view> rows = relation_rows();
   const Lattice lattice(mesh, scheme, 0);
-  for (const Relation& r : sharp_relations())
+  for (const Relation& r : surface_relations())
     if (!r.applies(mesh, lattice)) std::erase(rows, r.row);
   if (!has_semi_sharp(mesh)) std::erase(rows, "fractional-sharpness");
   return rows;
@@ -351,8 +338,7 @@ std::vector<Result> check_relations(const AuditSubject& subject, const Evidence&
     }
   };
   add("determinism", [&] { return relations.determinism(); });
-  for (const Relation& r : variant_relations()) add(r.row, [&] { return relations.relation(r); });
-  for (const Relation& r : sharp_relations())
+  for (const Relation& r : surface_relations())
     if (r.applies(e.mesh, e.lattice)) add(r.row, [&] { return relations.relation(r); });
   if (has_semi_sharp(e.mesh)) add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
   add("state", [&] {

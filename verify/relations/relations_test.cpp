@@ -9,8 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
+#include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +23,10 @@
 #include "verify/audit/audit.h"
 #include "verify/evidence/test_script.h"
 #include "verify/host/in_turns.h"
+#include "verify/mutants/faulty_subjects.h"
 #include "verify/relations/variants.h"
 #include "verify/row/test_rows.h"
+#include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -102,6 +105,13 @@ Apart compare(const Evidence& e, const Variant& v) {
     });
   }
   return apart;
+}
+
+std::vector<Relation> sharp_relations() {
+  std::vector<Relation> all = surface_relations();
+  all.erase(all.begin(),
+            std::find_if(all.begin(), all.end(), [](const Relation& r) { return r.row == "crease-order"; }));
+  return all;
 }
 
 // Holds each variant that a mesh has against it; the rows that there are.
@@ -217,81 +227,64 @@ TEST(CommonSharpness, MakesASurfaceThatIsLinearBetweenWholeNumbers) {
     }
 }
 
-// The recursive subdivider, with a memory that it should not have: one word says which.
-struct Forgetful {
-  void* inner;
-  std::int64_t vertices, faces;
-  std::vector<double> positions;
-  int calls = 0;
-  std::int32_t deepest = -1, last = -1, first = -1;  // depths of the requests so far
-  int destroyed = 0;                                 // other instances, before this was made
-};
 std::string fault;            // of the subject under test
 int alive = 0;                // instances
 std::int64_t last_faces = 0;  // of the mesh tessellated before, by any instance
 int destroyed = 0;            // instances so far
-const lc_subject& good() {
-  return *lc_subject_naive();
-}
+std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh>
+    cache;  // the first of so many vertices and faces
 
-// The positions of the first mesh that had as many vertices and faces.
-std::map<std::pair<std::int64_t, std::int64_t>, std::vector<double>> cache;
-const std::vector<double>& first_of_its_counts(const Forgetful& self) {
-  return cache.try_emplace({self.vertices, self.faces}, self.positions).first->second;
-}
+// The recursive subdivider, with a memory that it should not have: one word says which.
+class Forgetful {
+ public:
+  static lc_capabilities capabilities(Options&, lc_scheme scheme) {
+    return verify::capabilities(*lc_subject_naive(), {}, scheme_of(scheme));
+  }
+  Forgetful(const lc_mesh& mesh, Options&) : mesh_(control_mesh(mesh)), inner_(*lc_subject_naive(), mesh_) {
+    ++alive;
+  }
+  ~Forgetful() { --alive, ++destroyed; }
+  Forgetful(const Forgetful&) = delete;
+  Forgetful& operator=(const Forgetful&) = delete;
 
-bool goes_wrong(Forgetful& self, const lc_request& request) {
-  std::int32_t depth = 0;
-  for (std::int64_t f = 0; f < self.faces; ++f) depth = std::max(depth, request.face_depth[f]);
-  const bool wrong = (fault == "after_a_smaller_depth" && self.last >= 0 && self.last < depth) ||
-                     (fault == "after_a_greater_depth" && self.deepest > depth) ||
-                     (fault == "beside_another" && alive > 1) ||
-                     (fault == "after_another_mesh" && last_faces != 0 && last_faces != self.faces) ||
-                     (fault == "after_another_was_destroyed" && destroyed > self.destroyed) ||
-                     (fault == "first_depth_again" && self.first >= 0 && self.first != depth) ||
-                     (fault == "known_by_its_counts" && first_of_its_counts(self) != self.positions) ||
-                     (fault == "eighth_call" && self.calls == 7) ||
-                     (fault == "eight_threads" && request.threads == 8);
-  ++self.calls;
-  self.deepest = std::max(self.deepest, depth);
-  self.last = depth;
-  if (self.first < 0) self.first = depth;
-  last_faces = self.faces;
-  return wrong;
-}
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    const std::span depth(request.face_depth, mesh_.faces.size());
+    Delivered copy(inner_.tessellate(depth, request.threads));
+    const std::int32_t deepest =
+        std::accumulate(depth.begin(), depth.end(), 0, [](int a, int b) { return std::max(a, b); });
+    if (goes_wrong(deepest, request.threads) && !copy.positions.empty()) copy.positions[0][0] *= 1 + 0x1p-40;
+    copy.hand_over<double>(request, out, /*with_normals=*/true, /*with_corners=*/!copy.corner.empty());
+  }
+
+ private:
+  bool goes_wrong(std::int32_t depth, int threads) {
+    const std::int64_t faces = std::ssize(mesh_.faces.corners());
+    const auto& first = cache.try_emplace({mesh_.positions.size(), mesh_.faces.size()}, mesh_).first->second;
+    const bool wrong = (fault == "after_a_smaller_depth" && last_ >= 0 && last_ < depth) ||
+                       (fault == "after_a_greater_depth" && deepest_ > depth) ||
+                       (fault == "beside_another" && alive > 1) ||
+                       (fault == "after_another_mesh" && last_faces != 0 && last_faces != faces) ||
+                       (fault == "after_another_was_destroyed" && destroyed > others_destroyed_) ||
+                       (fault == "first_depth_again" && first_ >= 0 && first_ != depth) ||
+                       (fault == "known_by_its_counts" && first.positions != mesh_.positions) ||
+                       (fault == "eighth_call" && calls_ == 7) || (fault == "eight_threads" && threads == 8);
+    ++calls_;
+    deepest_ = std::max(deepest_, depth);
+    last_ = depth;
+    if (first_ < 0) first_ = depth;
+    last_faces = faces;
+    return wrong;
+  }
+
+  data::ControlMesh mesh_;
+  Session inner_;
+  int calls_ = 0;
+  std::int32_t deepest_ = -1, last_ = -1, first_ = -1;  // depths of the requests so far
+  int others_destroyed_ = destroyed;                    // before this was made
+};
 
 lc_subject forgetful() {
-  lc_subject s = good();
-  s.name = "forgetful";
-  s.create = [](const lc_mesh* mesh, const char*, void** instance, const char** message) {
-    auto self = std::make_unique<Forgetful>();
-    self->vertices = mesh->vertex_count;
-    self->faces = mesh->triangle_count;
-    self->positions.assign(mesh->positions, mesh->positions + 3 * mesh->vertex_count);
-    const lc_status status = good().create(mesh, nullptr, &self->inner, message);
-    if (status != LC_OK) return status;
-    ++alive;
-    self->destroyed = destroyed;
-    *instance = self.release();
-    return LC_OK;
-  };
-  s.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
-    auto& self = *static_cast<Forgetful*>(instance);
-    const bool wrong = goes_wrong(self, *request);
-    const lc_status status = good().tessellate(self.inner, request, out, message);
-    if (status == LC_OK && wrong) static_cast<double*>(out->positions)[0] *= 1 + 0x1p-40;
-    return status;
-  };
-  s.release = [](void* instance, lc_tessellation* out) {
-    good().release(static_cast<Forgetful*>(instance)->inner, out);
-  };
-  s.destroy = [](void* instance) {
-    const std::unique_ptr<Forgetful> self(static_cast<Forgetful*>(instance));
-    good().destroy(self->inner);
-    --alive;
-    ++destroyed;
-  };
-  return s;
+  return make_subject<Forgetful>("forgetful", "right when it is asked once");
 }
 
 Result state_of(const std::string& what) {
@@ -328,10 +321,10 @@ TEST(State, OfASubjectWithoutMemoryHolds) {
 TEST(State, OfASubjectThatKnowsMeshesAgainByTheirCountsIsAFinding) {
   fault = "known_by_its_counts";
   alive = destroyed = 0;
-  const lc_subject plain = *lc_subject_naive(), subject = forgetful();
+  const lc_subject subject = forgetful();
   cache.clear();
   InTurns turns(subject);
-  const AuditSubject audited{&plain, "", &turns.subject()};
+  const AuditSubject audited{lc_subject_naive(), "", &turns.subject()};
   const auto results =
       Auditor(2, 1, {}, Level::kStandard).run(audited, {"tetrahedron", data::named_mesh("tetrahedron")});
   EXPECT_EQ(row(results, "state").status, Status::kFinding);
@@ -354,10 +347,10 @@ INSTANTIATE_TEST_SUITE_P(EachWay, Remembers,
 
 // A point that is no number is `finite`'s business: it is the same one each time.
 TEST(State, OfTheSameNaNEachTimeHolds) {
-  lc_subject subject = good();
+  lc_subject subject = *lc_subject_naive();
   subject.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
                           const char** message) {
-    const lc_status status = good().tessellate(instance, request, out, message);
+    const lc_status status = lc_subject_naive()->tessellate(instance, request, out, message);
     if (status == LC_OK) static_cast<double*>(out->positions)[0] = std::numeric_limits<double>::quiet_NaN();
     return status;
   };

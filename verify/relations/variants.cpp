@@ -9,6 +9,9 @@
 #include <set>
 #include <utility>
 
+#include "reference/mesh/sharpness.h"
+#include "reference/mesh/topology.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -20,29 +23,41 @@ std::vector<T> in_order(const std::vector<T>& list, const std::vector<std::int32
   return result;
 }
 
-Variant face_order(const Evidence& e) {
-  return variant(e, "with its faces in another order", true, [&](Variant& v) {
+using Variants = std::vector<Variant>;
+
+// The request as it was, with a change.
+Variant variant(const Evidence& e, std::string name, bool same_numbers,
+                const std::function<void(Variant&)>& change) {
+  Variant v = identity(e);
+  v.name = std::move(name);
+  v.same_numbers = same_numbers;
+  change(v);
+  return v;
+}
+
+Variants face_order(const Evidence& e) {
+  return {variant(e, "with its faces in another order", true, [&](Variant& v) {
     data::SplitMix64 random(1);
     v.order_faces(shuffled(v.face.size(), random));
     for (std::size_t f = 0; f < v.face.size(); ++f) v.face_depth[f] = e.face_depth[v.face[f]];
-  });
+  })};
 }
 
-Variant vertex_order(const Evidence& e) {
-  return variant(e, "with its vertices numbered otherwise", true, [&](Variant& v) {
+Variants vertex_order(const Evidence& e) {
+  return {variant(e, "with its vertices numbered otherwise", true, [&](Variant& v) {
     data::SplitMix64 random(2);
     v.number_vertices(shuffled(e.mesh.positions.size(), random));
-  });
+  })};
 }
 
-Variant corner_rotation(const Evidence& e) {
-  return variant(e, "with its faces begun at other corners", true, [&](Variant& v) {
+Variants corner_rotation(const Evidence& e) {
+  return {variant(e, "with its faces begun at other corners", true, [&](Variant& v) {
     data::SplitMix64 random(3);
     for (std::size_t f = 0; f < v.face.size(); ++f) {
       const auto others = static_cast<std::uint64_t>(v.mesh.faces[f].size()) - 1;
       v.turn_face(f, 1 + static_cast<int>(random.next() % others));
     }
-  });
+  })};
 }
 
 void move(Variant& v, const std::function<Vector(const Vector&)>& there) {
@@ -53,43 +68,53 @@ void move(Variant& v, const std::function<Vector(const Vector&)>& there) {
   }
 }
 
-Variant mirror(const Evidence& e) {
-  return variant(e, "mirrored", false, [](Variant& v) {
+Variants mirror(const Evidence& e) {
+  return {variant(e, "mirrored", false, [](Variant& v) {
     v.position = v.normal = [](const Vector& p) { return Vector{-p[0], p[1], p[2]}; };
     move(v, v.position);
     v.mirror_faces();
-  });
+  })};
 }
 
-Variant rotation(const Evidence& e) {
-  return variant(e, "turned", false, [](Variant& v) {
+Variants rotation(const Evidence& e) {
+  return {variant(e, "turned", false, [](Variant& v) {
     move(v, [](const Vector& p) { return Vector{p[1], -p[2], -p[0]}; });
     v.position = v.normal = [](const Vector& p) { return Vector{-p[2], p[0], -p[1]}; };
-  });
+  })};
 }
 
-Variant scaling(const Evidence& e, int exponent) {
-  return variant(e, fmt::format("times 2^{}", exponent), true, [&](Variant& v) {
-    const auto times = [](int k) {
-      return [k](const Vector& p) {
-        return Vector{std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
-      };
+Variants scaling(const Evidence& e) {
+  const auto times = [](int k) {
+    return [k](const Vector& p) {
+      return Vector{std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
     };
-    move(v, times(exponent));
-    v.magnitude = e.magnitude;  // compared after scaling back
-    v.position = times(-exponent);
-  });
+  };
+  Variants all;
+  for (const int exponent : {10, -10, 40, -40})
+    all.push_back(variant(e, fmt::format("times 2^{}", exponent), true, [&](Variant& v) {
+      move(v, times(exponent));
+      v.magnitude = e.magnitude;  // compared after scaling back
+      v.position = times(-exponent);
+    }));
+  return all;
 }
 
-// By some diagonals, times 2^exponent.
-Variant translation(const Evidence& e, int exponent) {
-  return variant(e, exponent == 0 ? "moved" : "moved far away", false, [&](Variant& v) {
-    const double step = std::ldexp(1.0, std::ilogb(std::max(e.diagonal, 1e-30)) + exponent);
-    const Vector by{step, -2 * step, 3 * step};
-    move(v, [&](const Vector& p) { return p + by; });
-    v.position = [by](const Vector& p) { return p - by; };
-    v.normals = false;
-  });
+// By some diagonals, and by many times as many, so that some bits are left.
+Variants translation(const Evidence& e) {
+  Variants all;
+  for (const int exponent : {0, e.capabilities.precision == LC_FLOAT32 ? 10 : 20})
+    all.push_back(variant(e, exponent == 0 ? "moved" : "moved far away", false, [&](Variant& v) {
+      const double step = std::ldexp(1.0, std::ilogb(std::max(e.diagonal, 1e-30)) + exponent);
+      const Vector by{step, -2 * step, 3 * step};
+      move(v, [&](const Vector& p) { return p + by; });
+      v.position = [by](const Vector& p) { return p - by; };
+      v.normals = false;
+    }));
+  return all;
+}
+
+bool always(const data::ControlMesh&, const Lattice&) {
+  return true;
 }
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
@@ -119,13 +144,13 @@ std::vector<int> lasting_edges_at(const data::ControlMesh& mesh, const Lattice& 
   return count;
 }
 
-Variant crease_order(const Evidence& e) {
-  return variant(e, "with its sharp edges and vertices in another order", true, [](Variant& v) {
+Variants crease_order(const Evidence& e) {
+  return {variant(e, "with its sharp edges and vertices in another order", true, [](Variant& v) {
     data::Sharpness& sharp = v.mesh.sharpness;
     std::reverse(sharp.edges.begin(), sharp.edges.end());
     std::reverse(sharp.vertices.begin(), sharp.vertices.end());
     for (data::SharpEdge& edge : sharp.edges) std::swap(edge.a, edge.b);
-  });
+  })};
 }
 
 // Whether some edge or vertex, or an edge, is of such a sharpness.
@@ -140,24 +165,26 @@ bool any_is(const data::ControlMesh& mesh, bool (*of)(float)) {
 bool has_infinite(const data::ControlMesh& mesh, const Lattice&) {
   return any_is(mesh, lasts);
 }
-Variant infinite_sharpness(const Evidence& e, float sharpness) {
-  const char* name = sharpness == data::kInfiniteSharpness ? "with the sharpness 10 where it is more"
-                                                           : "with the sharpness 100 where it is 10 and more";
-  return variant(e, name, true, [&](Variant& v) {
-    const auto replace = [&](auto& tags) {
-      for (auto& tag : tags)
-        if (lasts(tag.sharpness)) tag.sharpness = sharpness;
-    };
-    replace(v.mesh.sharpness.edges);
-    replace(v.mesh.sharpness.vertices);
-  });
+Variants infinite_sharpness(const Evidence& e) {
+  const auto with = [&](const char* name, float sharpness) {
+    return variant(e, name, true, [&](Variant& v) {
+      const auto replace = [&](auto& tags) {
+        for (auto& tag : tags)
+          if (lasts(tag.sharpness)) tag.sharpness = sharpness;
+      };
+      replace(v.mesh.sharpness.edges);
+      replace(v.mesh.sharpness.vertices);
+    });
+  };
+  return {with("with the sharpness 10 where it is more", data::kInfiniteSharpness),
+          with("with the sharpness 100 where it is 10 and more", 100)};
 }
 
 bool has_lasting_crease_and_boundary(const data::ControlMesh& mesh, const Lattice& lattice) {
   return !boundary_of(lattice).empty() && any_is(mesh.sharpness.edges, lasts);
 }
-Variant boundary_crease(const Evidence& e) {
-  return variant(e, "with the edges of its boundary sharp for ever, which they are", true, [&](Variant& v) {
+Variants boundary_crease(const Evidence& e) {
+  return {variant(e, "with the edges of its boundary sharp for ever, which they are", true, [&](Variant& v) {
     std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
     const auto boundary = boundary_of(e.lattice);
     std::erase_if(sharp, [&](const data::SharpEdge& tag) {
@@ -166,7 +193,7 @@ Variant boundary_crease(const Evidence& e) {
                          [&](const Lattice::Edge& b) { return Edge(b.a, b.b) == edge; });
     });
     for (const Lattice::Edge& edge : boundary) sharp.push_back({edge.a, edge.b, data::kInfiniteSharpness});
-  });
+  })};
 }
 
 // A cut is the same surface if sharpness lasts wherever there is some, and no sharp edge ends in a dart.
@@ -176,44 +203,23 @@ bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
   return any_is(mesh.sharpness.edges, lasts) &&
          std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
 }
-Variant cut_by_hand(const Evidence& e) {
+Variants cut_by_hand(const Evidence& e) {
   Variant v = identity(e);
   v.name = "cut along its sharp edges, with a copy of their points for each side";
-  const Sides& sides = e.reference.sides();
   data::ControlMesh& mesh = v.mesh;
-  // Copies in the order of the sides of control vertices; each side of one is a vertex.
-  std::vector<Sides::Id> copied;
-  const auto vertex_count = static_cast<Lattice::Id>(mesh.positions.size());
-  for (Lattice::Id w = 0; w < vertex_count; ++w)
-    sides.for_each(w, [&](Sides::Id side) {
-      if (side != w) copied.push_back(side);
-    });
-  const auto number = [&](Sides::Id side) {
-    if (side < vertex_count) return static_cast<std::int32_t>(side);
-    const auto at = std::lower_bound(copied.begin(), copied.end(), side);
-    return static_cast<std::int32_t>(vertex_count + (at - copied.begin()));
-  };
-  for (const Sides::Id side : copied) mesh.positions.push_back(e.mesh.positions[sides.point(side)]);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::int32_t& w : mesh.faces[f]) w = number(sides.of(w, static_cast<std::int32_t>(f)));
-
-  // Vertices that are held: three lasting edges and more, a sharpness of their own, and, if the mesh says so,
-  // boundary vertices of one face; not the vertices of one face that the cut makes.
-  std::vector<bool> held(e.mesh.positions.size(), false);
-  const std::vector<int> count = lasting_edges_at(e.mesh, e.lattice);
-  std::vector<int> faces(held.size(), 0);
-  for (const std::int32_t w : e.mesh.faces.corners()) ++faces[w];
-  const bool corners = e.mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
-  for (std::size_t w = 0; w < held.size(); ++w) held[w] = count[w] > 2 || (corners && faces[w] == 1);
-  for (const data::SharpVertex& tag : e.mesh.sharpness.vertices) held[tag.vertex] = true;
-  data::Sharpness& sharp = mesh.sharpness;
-  sharp.edges.clear();
-  sharp.vertices.clear();
-  sharp.boundary = data::Boundary::kEdge;
-  for (std::int32_t w = 0; w < static_cast<std::int32_t>(mesh.positions.size()); ++w)
-    if (held[w < vertex_count ? w : sides.point(copied[w - vertex_count])])
-      sharp.vertices.push_back({w, data::kInfiniteSharpness});
-  return v;
+  const reference::Topology topology(mesh.positions.size(), mesh.faces);
+  const auto cut = reference::Sharpness(topology, mesh.sharpness).cut(topology);
+  mesh.faces = cut.faces;
+  // Of boundary vertices of one face those that the mesh holds stay held, not those that the cut makes.
+  mesh.sharpness.edges.clear();
+  mesh.sharpness.vertices.clear();
+  mesh.sharpness.boundary = data::Boundary::kEdge;
+  for (std::size_t w = 0; w < cut.origin.size(); ++w) {
+    if (w >= topology.vertex_count()) mesh.positions.push_back(e.mesh.positions[cut.origin[w]]);
+    if (cut.states[w] == reference::VertexState::kHeld)
+      mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(w), data::kInfiniteSharpness});
+  }
+  return {v};
 }
 
 bool any(const data::ControlMesh& mesh, const Lattice&) {
@@ -283,49 +289,19 @@ Variant identity(const Evidence& e) {
   return v;
 }
 
-Variant variant(const Evidence& e, std::string name, bool same_numbers,
-                const std::function<void(Variant&)>& change) {
-  Variant v = identity(e);
-  v.name = std::move(name);
-  v.same_numbers = same_numbers;
-  change(v);
-  return v;
-}
-
-const std::vector<Relation>& variant_relations() {
-  using Variants = std::vector<Variant>;
+const std::vector<Relation>& surface_relations() {
   static const std::vector<Relation> all{
-      {"face-order", [](const Evidence& e) { return Variants{face_order(e)}; }},
-      {"vertex-order", [](const Evidence& e) { return Variants{vertex_order(e)}; }},
-      {"corner-rotation", [](const Evidence& e) { return Variants{corner_rotation(e)}; }},
-      {"mirror", [](const Evidence& e) { return Variants{mirror(e)}; }},
-      {"rotation", [](const Evidence& e) { return Variants{rotation(e)}; }},
-      {"scaling",
-       [](const Evidence& e) {
-         return Variants{scaling(e, 10), scaling(e, -10), scaling(e, 40), scaling(e, -40)};
-       }},
-      {"translation",
-       [](const Evidence& e) {
-         const int far = e.capabilities.precision == LC_FLOAT32 ? 10 : 20;  // some bits are left
-         return Variants{translation(e, 0), translation(e, far)};
-       }},
-  };
-  return all;
-}
-
-const std::vector<Relation>& sharp_relations() {
-  using Variants = std::vector<Variant>;
-  static const std::vector<Relation> all{
-      {"crease-order", [](const Evidence& e) { return Variants{crease_order(e)}; }, &any},
-      {"infinite-sharpness",
-       [](const Evidence& e) {
-         return Variants{infinite_sharpness(e, data::kInfiniteSharpness), infinite_sharpness(e, 100)};
-       },
-       &has_infinite},
-      {"boundary-crease", [](const Evidence& e) { return Variants{boundary_crease(e)}; },
-       &has_lasting_crease_and_boundary},
-      {"cut-by-hand", [](const Evidence& e) { return Variants{cut_by_hand(e)}; }, &can_be_cut},
-  };
+      {"face-order", face_order, always},
+      {"vertex-order", vertex_order, always},
+      {"corner-rotation", corner_rotation, always},
+      {"mirror", mirror, always},
+      {"rotation", rotation, always},
+      {"scaling", scaling, always},
+      {"translation", translation, always},
+      {"crease-order", crease_order, any},
+      {"infinite-sharpness", infinite_sharpness, has_infinite},
+      {"boundary-crease", boundary_crease, has_lasting_crease_and_boundary},
+      {"cut-by-hand", cut_by_hand, can_be_cut}};
   return all;
 }
 

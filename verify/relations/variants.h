@@ -53,24 +53,20 @@ struct Variant : Rewriting {
   bool same_numbers = false;                              // a difference in bits is worth a warning
 };
 
-/// The request as it was; and with a change.
+/// The request as it was.
 Variant identity(const Evidence& e);
-Variant variant(const Evidence& e, std::string name, bool same_numbers,
-                const std::function<void(Variant&)>& change);
 
 /// One row of the audit and the variants it compares.
 struct Relation {
   std::string_view row;
   std::vector<Variant> (*variants)(const Evidence&);
-  /// Whether there is anything to compare; nullptr: always.
-  bool (*applies)(const data::ControlMesh&, const Lattice&) = nullptr;
+  /// Whether there is anything to compare.
+  bool (*applies)(const data::ControlMesh&, const Lattice&);
 };
 
-/// From face-order to translation, in the order of the table (relations.h says what each is).
-const std::vector<Relation>& variant_relations();
-
-/// In the order of the table (relations.h says what each is). All need sharp edges or vertices.
-const std::vector<Relation>& sharp_relations();
+/// From face-order to cut-by-hand, in the order of the table (relations.h says what each is). From crease-order on
+/// they need sharp edges or vertices.
+const std::vector<Relation>& surface_relations();
 
 /// Whether an edge or a vertex has a sharpness that ends.
 bool has_semi_sharp(const data::ControlMesh& mesh);

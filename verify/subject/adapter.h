@@ -196,15 +196,9 @@ lc_status guarded(const char** message, Work&& work) noexcept {
 /// What T says of itself, with the schemes that it has.
 template <class T>
 lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
-  lc_capabilities result{};
-  if constexpr (requires { T::capabilities(options, scheme); }) {
-    result = T::capabilities(options, scheme);
-    if (result.schemes == 0) result.schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
-    if constexpr (requires { T::kSchemes; }) result.schemes = T::kSchemes;
-  } else {
-    result = T::capabilities(options);
-    result.schemes = LC_DOES_LOOP;
-  }
+  lc_capabilities result = T::capabilities(options, scheme);
+  if (result.schemes == 0) result.schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
+  if constexpr (requires { T::kSchemes; }) result.schemes = T::kSchemes;
   if constexpr (requires { T::kSharp; }) result.sharp = T::kSharp;
   result.size = sizeof result;
   result.scheme = scheme;
@@ -214,8 +208,8 @@ lc_capabilities capabilities_of(Options& options, lc_scheme scheme) {
 }  // namespace detail
 
 /// The function table of the adapter class T, which has
-///   static lc_capabilities capabilities(Options&)              if it does Loop's scheme alone
-///   static lc_capabilities capabilities(Options&, lc_scheme)   if it does both, or those of T::kSchemes
+///   static lc_capabilities capabilities(Options&, lc_scheme)   for one scheme
+///   static constexpr std::int32_t kSchemes                     if it does not do both: LC_DOES_...
 ///   static constexpr std::int32_t kSharp                       if it does sharp edges: LC_SHARP_...
 ///   static constexpr bool kLeavesRefusals                      if it refuses unusable meshes itself
 ///   T(const lc_mesh&, Options&)

@@ -116,6 +116,13 @@ class FaceDomain {
     }
     return std::nullopt;
   }
+  /// How many steps along a side a point of the domain lies, its ends included; -1 beside it.
+  constexpr std::int64_t along(Point p, int side, std::int64_t n) const {
+    const auto at = side_of(p, n);
+    if (!at) return -1;
+    if (at->side == side) return at->along;
+    return at->along == 0 && at->side == next(side) ? n : -1;
+  }
   /// The corner in which a point lies, if it lies in one.
   constexpr std::optional<int> corner_at(Point p, std::int64_t n) const {
     const auto place = side_of(p, n);
@@ -197,7 +204,7 @@ class FaceDomain {
     const int own = at ? at->side : 0, other = at && at->along == 0 ? previous(own) : own;
     for (const int side : {own < other ? own : other, own < other ? other : own}) {
       const Point middle{n / 2, 0, side};
-      if (n % 2 != 0 || !on_line(p, side, n) || !on_line(q, side, n)) continue;
+      if (n % 2 != 0 || along(p, side, n) < 0 || along(q, side, n) < 0) continue;
       for_each_step(p, middle, n, unit, visit);
       for_each_step(middle, q, n, unit, visit);
       return;
@@ -231,6 +238,27 @@ class FaceDomain {
       for (std::int64_t j = 0; j <= most; ++j)
         for (std::int64_t i = 0; shape_ == Shape::kTriangle ? i + j <= n : i <= most; ++i)
           if (const Point p{i, j, part}; canonical(p, n) == p) visit(p);
+  }
+  /// The triangles of a lattice of steps of `unit`: of Loop's scheme, or halves of squares that are cut from (i, j) to
+  /// (i + 1, j + 1); of a polygon in steps of n, those from corner 0 to the others.
+  template <class Visit>
+  constexpr void for_each_triangle(std::int64_t n, std::int64_t unit, Visit visit) const {
+    if (parts() > 1 && unit == n) {
+      for (int k = 1; k + 1 < corners(); ++k)
+        visit(corner_point(0, n), corner_point(k, n), corner_point(k + 1, n));
+      return;
+    }
+    const bool loop = shape_ == Shape::kTriangle;
+    const std::int64_t most = denominator(n);
+    for (std::int32_t part = 0; part < parts(); ++part)
+      for (std::int64_t j = 0; j < most; j += unit)
+        for (std::int64_t i = 0; i < (loop ? most - j : most); i += unit) {
+          const Point at{i, j, part}, right{i + unit, j, part}, up{i, j + unit, part},
+              across{i + unit, j + unit, part};
+          visit(at, right, loop ? up : across);
+          if (!loop) visit(at, across, up);
+          if (loop && i + j + unit < most) visit(right, across, up);
+        }
   }
   /// How many of the lattice points lie inside the face.
   constexpr std::int64_t inner_count(std::int64_t n) const {
@@ -280,12 +308,6 @@ class FaceDomain {
 
  private:
   enum class Shape : std::uint8_t { kTriangle, kQuad, kPolygon };
-
-  // Of a polygon: whether the point lies on a side, its ends included.
-  constexpr bool on_line(Point p, int side, std::int64_t n) const {
-    const auto at = side_of(p, n);
-    return at && (at->side == side || (at->along == 0 && at->side == next(side)));
-  }
 
   // Where a point of a polygon lies in the plane, if the polygon is regular and its parts are bilinear.
   std::array<double, 2> flat(Point p, std::int64_t n) const {

@@ -158,6 +158,36 @@ Place Lattice::place(std::int32_t face, Coordinates at) const {
   return {face, number(at.i), number(at.j), number(whole), at.part};
 }
 
+std::vector<std::int32_t> fans_of_corners(const Lattice& lattice,
+                                          const std::function<bool(const Lattice::Edge&)>& joins,
+                                          const std::function<bool(std::int32_t)>& counts) {
+  // Sets of corners that grow together.
+  std::vector<std::int32_t> parent(lattice.corner_count());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  for (const Lattice::Edge& edge : lattice.edges()) {
+    if (edge.on_boundary() || !joins(edge)) continue;
+    for (int s = 0; s < 2; ++s) {  // the two faces run along it in opposite directions
+      const std::int32_t f = edge.face[s], g = edge.face[1 - s];
+      parent[root(lattice.corner_number(f, edge.corner[s]))] =
+          root(lattice.corner_number(g, lattice.domain(g).next(edge.corner[1 - s])));
+    }
+  }
+  std::vector<std::int32_t> fan(parent.size(), 0), number(parent.size(), -1);  // number: of each root
+  std::vector<std::int32_t> met(lattice.mesh().positions.size(), 0);           // fans of each vertex
+  for (std::int32_t f = 0; f < lattice.face_count(); ++f)
+    for (int k = 0; k < lattice.domain(f).corners() && counts(f); ++k) {
+      const std::int32_t c = lattice.corner_number(f, k);
+      std::int32_t& its = number[root(c)];
+      if (its < 0) its = met[lattice.vertex(f, k)]++;
+      fan[c] = its;
+    }
+  return fan;
+}
+
 std::string fraction(std::uint64_t numerator, std::uint64_t denominator) {
   const std::uint64_t divisor = std::gcd(numerator, denominator);
   if (numerator == 0 || divisor == 0) return "0";

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,6 +107,13 @@ class Lattice {
   // If a face has many corners, the numbers of the corners at each vertex, ascending, from first_at_vertex_ on.
   std::vector<std::int32_t> first_at_vertex_, vertex_corners_;
 };
+
+/// For each corner of a face (Lattice::corner_number) the fan at its vertex that it is in: 0, 1, 2 .. by their lowest
+/// faces. Corners of two faces are in one fan where these meet in an edge that `joins` is true of; those of faces that
+/// `counts` is not true of are in no fan that is numbered, and are 0.
+std::vector<std::int32_t> fans_of_corners(const Lattice& lattice,
+                                          const std::function<bool(const Lattice::Edge&)>& joins,
+                                          const std::function<bool(std::int32_t)>& counts);
 
 /// "3/8", "0", "1".
 std::string fraction(std::uint64_t numerator, std::uint64_t denominator);

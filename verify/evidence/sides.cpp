@@ -2,26 +2,11 @@
 #include "verify/evidence/sides.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <utility>
 
 namespace limitcheck::verify {
 namespace {
-
-// Sets of corners that grow together.
-class Corners {
- public:
-  explicit Corners(std::int32_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t find(std::int32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  void join(std::int32_t a, std::int32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
 
 std::set<std::pair<std::int32_t, std::int32_t>> lasting_edges(const data::ControlMesh& mesh) {
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
@@ -37,41 +22,26 @@ Sides::Sides(const Lattice& lattice) : lattice_(lattice) {
   if (lasting.empty()) return;
 
   // Around a vertex, faces are of one sector that meet in an edge which does not stay sharp.
-  Corners corners(lattice.corner_count());
+  const auto stays_sharp = [&](const Lattice::Edge& e) { return lasting.contains({e.a, e.b}); };
+  sector_ = fans_of_corners(
+      lattice, [&](const Lattice::Edge& e) { return !stays_sharp(e); }, [](std::int32_t) { return true; });
   of_edge_.assign(lattice.edges().size(), -1);
   for (std::size_t k = 0; k < lattice.edges().size(); ++k) {
     const Lattice::Edge& e = lattice.edges()[k];
-    if (e.on_boundary()) continue;
-    if (!lasting.contains({e.a, e.b})) {
-      for (const std::int32_t v : {e.a, e.b}) {
-        const auto corner = [&](std::int32_t face) {
-          return lattice.corner_number(face, *lattice.corner_of(face, v));
-        };
-        corners.join(corner(e.face[0]), corner(e.face[1]));
-      }
-    } else if (lattice.n() > 1) {
-      of_edge_[k] = size();
-      for (Lattice::Id i = 0; i < lattice.n() - 1; ++i)
-        others_.push_back({lattice.first_on_edge(k) + i, e.face[1]});
-    }
+    if (e.on_boundary() || !stays_sharp(e) || lattice.n() == 1) continue;
+    of_edge_[k] = size();
+    for (Lattice::Id i = 0; i < lattice.n() - 1; ++i)
+      others_.push_back({lattice.first_on_edge(k) + i, e.face[1]});
   }
 
-  // The sectors of each vertex in the order of their lowest faces; the first has the id of the vertex.
-  std::vector<std::int32_t> sectors(lattice.mesh().positions.size(), 0);
-  std::vector<std::vector<std::int32_t>> first_face(sectors.size());  // of the sectors after the first
-  std::vector<std::int32_t> number(lattice.corner_count(), -1);       // by the set of corners
-  sector_.resize(lattice.corner_count());
+  // The first face of each sector after that which has the id of the vertex.
+  std::vector<std::vector<std::int32_t>> first_face(lattice.mesh().positions.size());
   for (std::int32_t f = 0; f < lattice.face_count(); ++f)
     for (int k = 0; k < lattice.domain(f).corners(); ++k) {
-      const std::int32_t v = lattice.vertex(f, k), corner = lattice.corner_number(f, k);
-      std::int32_t& its = number[corners.find(corner)];
-      if (its < 0) {
-        its = sectors[v]++;
-        if (its > 0) first_face[v].push_back(f);
-      }
-      sector_[corner] = its;
+      auto& met = first_face[lattice.vertex(f, k)];
+      if (sector_[lattice.corner_number(f, k)] > std::ssize(met)) met.push_back(f);
     }
-  of_vertex_.assign(sectors.size(), -1);
+  of_vertex_.assign(first_face.size(), -1);
   for (std::size_t v = 0; v < first_face.size(); ++v) {
     if (first_face[v].empty()) continue;
     of_vertex_[v] = size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/audit/cover.h"
+#include "verify/audit/default_plan.h"
 
 #include <fmt/core.h>
 

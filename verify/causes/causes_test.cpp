@@ -13,9 +13,9 @@
 #include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/evidence/cells.h"
-#include "verify/report/baseline.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
+#include "verify/report/known.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

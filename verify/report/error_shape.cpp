@@ -48,41 +48,41 @@ std::vector<float> edges_of(const data::ControlMesh& mesh) {
   return ends;
 }
 
-/// A tessellation by its numbers.
+/// A tessellation, and where its witness is.
 struct Shown {
-  std::int64_t triangles;
-  std::function<bool(std::int64_t)> is_sound;  // may be looked at
-  std::function<std::array<std::uint32_t, 3>(std::int64_t)> corners;
-  std::function<Vector(std::uint32_t)> position;
+  std::vector<Vector> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // of which all may be looked at
+  Vector middle;
+
+  // Keeps the triangles nearest to the middle, at most kMostTriangles.
+  void keep_nearest();
+  ErrorShape shape(const data::ControlMesh& control,
+                   const std::function<std::uint8_t(std::uint32_t)>& value) const;
 };
 
-/// The triangles nearest to a point, at most kMostTriangles.
-std::vector<std::int64_t> nearest(const Shown& t, const Vector& middle) {
-  std::vector<std::pair<double, std::int64_t>> order;
-  for (std::int64_t k = 0; k < t.triangles; ++k) {
-    if (!t.is_sound(k)) continue;
-    const Vector p = t.position(t.corners(k)[0]);
-    if (is_finite(p)) order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
-  }
+void Shown::keep_nearest() {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (const Vector& p = positions[triangles[k][0]]; is_finite(p))
+      order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), kMostTriangles));
-  std::vector<std::int64_t> list;
-  for (const auto& [distance, k] : order) list.push_back(k);
-  return list;
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  for (const auto& [distance, k] : order) kept.push_back(triangles[k]);
+  triangles = std::move(kept);
 }
 
-ErrorShape shape_of(const Shown& t, const std::vector<std::int64_t>& triangles, const Vector& middle,
-                    const data::ControlMesh& control,
-                    const std::function<std::uint8_t(std::uint32_t)>& value) {
+ErrorShape Shown::shape(const data::ControlMesh& control,
+                        const std::function<std::uint8_t(std::uint32_t)>& value) const {
   ErrorShape shape;
   shape.control = edges_of(control);
   std::map<std::uint32_t, std::uint32_t> number;
-  for (const std::int64_t k : triangles)
-    for (const std::uint32_t v : t.corners(k)) {
+  for (const auto& corners : triangles)
+    for (const std::uint32_t v : corners) {
       const auto [at, is_new] = number.emplace(v, static_cast<std::uint32_t>(shape.values.size()));
       shape.triangles.push_back(at->second);
       if (!is_new) continue;
-      append(shape.positions, t.position(v));
+      append(shape.positions, positions[v]);
       shape.values.push_back(value(v));
     }
   for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
@@ -117,14 +117,14 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
   for (std::int64_t v = 0; centre < 0 && v < t.vertex_count(); ++v)
     if (t.provenance_ok(v) && t.place(v).face == row.witness->face) centre = v;
   if (centre < 0 || centre >= t.vertex_count()) return std::nullopt;
-  const Vector middle = t.position(centre);
-  const Shown shown{t.triangle_count(), [&](std::int64_t k) { return t.triangle_ok(k); },
-                    [&](std::int64_t k) { return t.triangles()[k]; },
-                    [&](std::uint32_t v) { return t.position(v); }};
-  const std::vector<std::int64_t> order = nearest(shown, middle);
+  Shown shown{{}, {}, t.position(centre)};
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) shown.positions.push_back(t.position(v));
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k)
+    if (t.triangle_ok(k)) shown.triangles.push_back(t.triangles()[k]);
+  shown.keep_nearest();
   std::vector<Lattice::Id> wanted;
-  for (const std::int64_t k : order)
-    for (const std::uint32_t v : t.triangles()[k]) wanted.push_back(e.point[v]);
+  for (const auto& corners : shown.triangles)
+    for (const std::uint32_t v : corners) wanted.push_back(e.point[v]);
   truth.prepare(wanted);
   const bool normals = row.unit == "degrees" || row.check == "finite";
   const double bound = normals ? normal_bound(c.precision, truth.steps()) : e.position_bound();
@@ -137,10 +137,10 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
     const Sides::Id side = truth.sides().of(point, t.place(v).face);
     return truth.has_normal(side) ? angle_degrees(t.normal(v), truth.normal(side)) : 0.0;
   };
-  ErrorShape shape = shape_of(shown, order, middle, mesh.mesh, [&](std::uint32_t v) {
+  ErrorShape shape = shown.shape(mesh.mesh, [&](std::uint32_t v) {
     return value_of(error(v), normals ? bound : e.position_bound_at(e.point[v]));
   });
-  shape.note = note_of(normals, bound, order.size());
+  shape.note = note_of(normals, bound, shown.triangles.size());
   return shape;
 } catch (const std::exception&) {
   return std::nullopt;  // the report has a row that says so
@@ -149,22 +149,18 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
 std::optional<ErrorShape> error_shape(const VertexErrors& file, const data::ControlMesh& control,
                                       const Result& row) {
   if (!row.witness || row.witness->vertex < 0 || file.positions.empty()) return std::nullopt;
-  const Vector middle = file.positions[static_cast<std::size_t>(row.witness->vertex)];
-  const Shown shown{static_cast<std::int64_t>(file.triangles.size()), [](std::int64_t) { return true; },
-                    [&](std::int64_t k) {
-                      const auto& [a, b, c] = file.triangles[static_cast<std::size_t>(k)];
-                      return std::array{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                        static_cast<std::uint32_t>(c)};
-                    },
-                    [&](std::uint32_t v) { return file.positions[v]; }};
+  Shown shown{file.positions, {}, file.positions[static_cast<std::size_t>(row.witness->vertex)]};
+  for (const auto& [a, b, c] : file.triangles)
+    shown.triangles.push_back(
+        {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+  shown.keep_nearest();
   const bool normals = row.unit == "degrees";
   const double bound = normals ? file.angle_bound : file.distance_bound;
-  const std::vector<std::int64_t> order = nearest(shown, middle);
-  ErrorShape shape = shape_of(shown, order, middle, control, [&](std::uint32_t v) {
+  ErrorShape shape = shown.shape(control, [&](std::uint32_t v) {
     return is_finite(file.positions[v]) ? value_of(normals ? file.angle[v] : file.distance[v], bound)
                                         : std::uint8_t{255};
   });
-  shape.note = note_of(normals, bound, order.size());
+  shape.note = note_of(normals, bound, shown.triangles.size());
   return shape;
 }
 

@@ -14,7 +14,6 @@
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
 #include "verify/relations/relations.h"
-#include "verify/report/baseline.h"
 #include "verify/report/coverage.h"
 #include "verify/report/forms.h"
 #include "verify/report/known.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "verify/report/baseline.h"
 #include "verify/report/json.h"
+#include "verify/report/known.h"
 
 namespace limitcheck::verify {
 namespace {

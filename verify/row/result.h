@@ -233,7 +233,7 @@ struct Report {
   std::string printed;            // by the subjects, on standard output and standard error
   std::string incomplete;         // "interrupted by SIGINT": not all was looked at; empty: all was
 
-  /// Against an earlier report (baseline.h), in rows.
+  /// Against an earlier report (report/known.h), in rows.
   struct Changes {
     std::string baseline;  // its file
     std::int64_t appeared = 0, worse = 0, gone = 0, same = 0;

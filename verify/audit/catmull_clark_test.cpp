@@ -11,12 +11,9 @@
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/mutants/faulty_subjects.h"
-#include "verify/mutants/mutant_rules.h"
 #include "verify/projection/test_meshes.h"
-#include "verify/relations/relations.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
 
@@ -68,30 +65,6 @@ TEST(CatmullClarkAudit, AStitchedTessellatorHasNoFindingAtUnequalDepths) {
         Auditor auditor(4, 1, {}, seed == 1 ? Level::kThorough : Level::kQuick);
         expect_held(auditor.run({lc_subject_quad_model(), ""}, mesh), m.name + " at unequal depths");
       }
-}
-
-TEST(CatmullClarkAudit, EachMutantIsFoundByTheCheckMeantForIt) {
-  std::vector<AuditMesh> cases;
-  for (const test::TestMesh& m : test::quad_meshes()) {
-    cases.push_back(audited(m));
-    cases.back().depth = 2;
-    AuditMesh unequal = audited(m);
-    unequal.face_depth = random_depths(m.mesh.faces.size(), -1, 3, 1);
-    unequal.depth = 3;
-    cases.push_back(unequal);
-  }
-  const auto& relations = relation_rows();
-  for (const Mutation& mutation : mutations(data::Scheme::kCatmullClark).subspan(1)) {
-    if (mutation.sharp) continue;  // `limitcheck mutants` has meshes with sharp edges
-    bool found = false;
-    const bool relation = std::find(relations.begin(), relations.end(), mutation.check) != relations.end();
-    Auditor auditor(2, 2, {}, relation ? Level::kThorough : Level::kQuick);
-    for (std::size_t k = 0; k < cases.size() && !found; ++k)
-      for (const Result& r :
-           auditor.run({lc_subject_quad_model(), "mutation=" + std::string(mutation.name)}, cases[k]))
-        found = found || (r.check == mutation.check && is_bad(r));
-    EXPECT_TRUE(found) << mutation.name << " was not found by " << mutation.check;
-  }
 }
 
 AuditMesh named(const std::string& name, int depth = 2, const std::string& depths = "uniform") {

@@ -13,6 +13,7 @@
 
 #include "data/scheme.h"
 #include "verify/evidence/audit_case.h"
+#include "verify/evidence/lattice.h"
 
 namespace limitcheck::verify {
 
@@ -90,6 +91,22 @@ inline constexpr std::array<std::int64_t, 4> kIndexes{255, 32767, 65535, INT32_M
 inline constexpr int kDepthClasses = 8, kMostDifference = 3, kMostGenus = 3;
 /// Values on the axes kAround and kCreasing.
 inline constexpr std::size_t kBetweenCreases = 4, kWeakBetweenStrong = 5, kUnequal = 2;
+
+/// The faces of a control vertex, its edges (Lattice::edges()), and the tags there.
+struct ControlVertex {
+  bool boundary = false;
+  int infinite = 0, semi = 0;  // edges that are sharp for ever, and for some steps; not those of the boundary
+  float own = 0;
+  std::vector<std::size_t> edges;
+  std::vector<std::int32_t> faces;
+  bool sharp() const { return own > 0 || infinite + semi > 0; }
+};
+/// All of a mesh, and the sharpness of each edge; 0 on the boundary.                                 O(faces)
+struct ControlVertices {
+  explicit ControlVertices(const Lattice& lattice);
+  std::vector<ControlVertex> all;
+  std::vector<float> sharpness;
+};
 
 /// The features of the control vertices that have a displayed face, each list once and ascending. On some axes a vertex has
 /// several: edges of several sharpnesses.                                                         O(faces)

@@ -50,47 +50,20 @@ Features of_mesh(const AuditMesh& audited) {
   return found;
 }
 
-// The tags and faces at a vertex.
-struct Vertex {
-  bool boundary = false;
-  int infinite = 0, semi = 0;
-  float own = 0;
-  std::vector<std::size_t> edges;
-  std::vector<std::int32_t> faces;
-  bool sharp() const { return own > 0 || infinite + semi > 0; }
-};
-
 class Looker {
  public:
   explicit Looker(const AuditMesh& audited)
       : mesh_(audited.mesh),
         lattice_(mesh_, audited.scheme(), 0),
         depth_(asked_depths(audited, audited.depth)),
-        vertex_(mesh_.positions.size()) {
-    for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
-      for (const std::int32_t v : mesh_.faces[f]) vertex_[v].faces.push_back(static_cast<std::int32_t>(f));
-    std::map<std::pair<std::int32_t, std::int32_t>, float> tagged;
-    for (const data::SharpEdge& e : mesh_.sharpness.edges) tagged[std::minmax(e.a, e.b)] = e.sharpness;
-    for (const data::SharpVertex& s : mesh_.sharpness.vertices) vertex_[s.vertex].own = s.sharpness;
-    for (std::size_t k = 0; k < lattice_.edges().size(); ++k) {
-      const Lattice::Edge& e = lattice_.edges()[k];
-      const auto tag = tagged.empty() ? tagged.end() : tagged.find({e.a, e.b});
-      sharpness_.push_back(tag == tagged.end() || e.on_boundary() ? 0 : tag->second);
-      for (const std::int32_t v : {e.a, e.b}) {
-        Vertex& at = vertex_[v];
-        at.edges.push_back(k);
-        at.boundary = at.boundary || e.on_boundary();
-        (is_infinite(k) ? at.infinite : at.semi) += sharpness_[k] > 0 ? 1 : 0;
-      }
-    }
-  }
+        vertices_(lattice_) {}
 
-  bool is_displayed(const Vertex& at) const {
+  bool is_displayed(const ControlVertex& at) const {
     return std::any_of(at.faces.begin(), at.faces.end(), [&](std::int32_t f) { return depth_[f] >= 0; });
   }
 
   void add_features(std::size_t v, Features& to) const {
-    const Vertex& at = vertex_[v];
+    const ControlVertex& at = vertices_.all[v];
     const int own = at.own <= 0 ? 0 : at.own < data::kInfiniteSharpness ? 1 : 2;
     const std::size_t size_class = size_class_of(std::ssize(at.faces));
     to.add(Axis::kSide, at.boundary ? 1 : 0);
@@ -115,24 +88,24 @@ class Looker {
     add_faces(at, to);
   }
 
-  const std::vector<Vertex>& vertices() const { return vertex_; }
+  const std::vector<ControlVertex>& vertices() const { return vertices_.all; }
 
  private:
-  bool is_infinite(std::size_t edge) const { return sharpness_[edge] >= data::kInfiniteSharpness; }
+  bool is_infinite(std::size_t edge) const { return vertices_.sharpness[edge] >= data::kInfiniteSharpness; }
 
   // The sharpnesses of edges that end, but are sharp for longer than that.
-  std::set<float> ending_edges(const Vertex& at, float longer_than) const {
+  std::set<float> ending_edges(const ControlVertex& at, float longer_than) const {
     std::set<float> some;
     for (const std::size_t k : at.edges)
-      if (sharpness_[k] > longer_than && !is_infinite(k)) some.insert(sharpness_[k]);
+      if (vertices_.sharpness[k] > longer_than && !is_infinite(k)) some.insert(vertices_.sharpness[k]);
     return some;
   }
 
-  void add_edge(std::size_t k, const Vertex& at, Features& to) const {
+  void add_edge(std::size_t k, const ControlVertex& at, Features& to) const {
     const Lattice::Edge& e = lattice_.edges()[k];
     if (e.on_boundary()) return;
-    const float s = sharpness_[k];
-    const Vertex& other = &vertex_[e.a] == &at ? vertex_[e.b] : vertex_[e.a];
+    const float s = vertices_.sharpness[k];
+    const ControlVertex& other = &vertices_.all[e.a] == &at ? vertices_.all[e.b] : vertices_.all[e.a];
     if (s > 0) to.add(Axis::kSharpness, data::sharpness_class(s));
     if (!other.boundary && other.faces.size() != (lattice_.scheme() == data::Scheme::kLoop ? 6U : 4U))
       to.add(Axis::kAround, 0);
@@ -144,10 +117,11 @@ class Looker {
     if (s < 1 && !ending_edges(at, 2).empty() && !ending_edges(other, 2).empty())
       to.add(Axis::kAround, kWeakBetweenStrong);
     for (const std::size_t next : other.edges)
-      if (next != k && sharpness_[next] > 0) to.add(Axis::kAround, sharpness_[next] == s ? 2 : 3);
+      if (next != k && vertices_.sharpness[next] > 0)
+        to.add(Axis::kAround, vertices_.sharpness[next] == s ? 2 : 3);
   }
 
-  void add_faces(const Vertex& at, Features& to) const {
+  void add_faces(const ControlVertex& at, Features& to) const {
     int least = kDepthClasses, most = -1;
     bool culled = false;
     for (const std::int32_t f : at.faces) {
@@ -170,11 +144,31 @@ class Looker {
   const data::ControlMesh& mesh_;
   Lattice lattice_;
   std::vector<std::int32_t> depth_;
-  std::vector<Vertex> vertex_;
-  std::vector<float> sharpness_;  // of each edge
+  ControlVertices vertices_;
 };
 
 }  // namespace
+
+ControlVertices::ControlVertices(const Lattice& lattice) : all(lattice.mesh().positions.size()) {
+  const data::ControlMesh& mesh = lattice.mesh();
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (const std::int32_t v : mesh.faces[f]) all[v].faces.push_back(static_cast<std::int32_t>(f));
+  std::map<std::pair<std::int32_t, std::int32_t>, float> tagged;
+  for (const data::SharpEdge& e : mesh.sharpness.edges) tagged[std::minmax(e.a, e.b)] = e.sharpness;
+  for (const data::SharpVertex& s : mesh.sharpness.vertices) all[s.vertex].own = s.sharpness;
+  for (std::size_t k = 0; k < lattice.edges().size(); ++k) {
+    const Lattice::Edge& e = lattice.edges()[k];
+    const auto tag = tagged.empty() ? tagged.end() : tagged.find({e.a, e.b});
+    const float s = tag == tagged.end() || e.on_boundary() ? 0 : tag->second;
+    sharpness.push_back(s);
+    for (const std::int32_t v : {e.a, e.b}) {
+      ControlVertex& at = all[v];
+      at.edges.push_back(k);
+      at.boundary = at.boundary || e.on_boundary();
+      (s >= data::kInfiniteSharpness ? at.infinite : at.semi) += s > 0 ? 1 : 0;
+    }
+  }
+}
 
 std::vector<std::vector<std::uint16_t>> neighbourhoods(const AuditMesh& mesh) {
   const Features whole = of_mesh(mesh);

@@ -52,17 +52,6 @@ std::array<double, 2> beside_corner(const Lattice& lattice, const Place& corner,
   return {static_cast<double>(p.i + q.i) / whole, static_cast<double>(p.j + q.j) / whole};
 }
 
-int steps_of(const data::ControlMesh& mesh, int depth) {
-  float most = 0;
-  const auto look = [&](const auto& tags) {
-    for (const auto& tag : tags)
-      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
-  };
-  look(mesh.sharpness.edges);
-  look(mesh.sharpness.vertices);
-  return std::max(depth, static_cast<int>(std::ceil(most)));
-}
-
 // See terms_at(): of each face.
 std::vector<std::int64_t> terms(const data::Faces& faces, std::size_t vertices) {
   std::vector<std::int64_t> at(vertices, 1), most(faces.size(), 0);
@@ -75,6 +64,17 @@ std::vector<std::int64_t> terms(const data::Faces& faces, std::size_t vertices) 
 }
 
 }  // namespace
+
+int steps_of(const data::Sharpness& tags) {
+  float most = 0;
+  const auto look = [&](const auto& list) {
+    for (const auto& tag : list)
+      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
+  };
+  look(tags.edges);
+  look(tags.vertices);
+  return static_cast<int>(std::ceil(most));
+}
 
 // Each made when first needed: for limit points, for refined ones, and for findings.
 struct ReferenceSurface::Evaluators {
@@ -111,7 +111,7 @@ ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme s
     : mesh_(mesh),
       lattice_(mesh_, scheme, depth),
       sides_(lattice_),
-      steps_(points == LC_POINTS_LIMIT ? steps_of(mesh, depth) : depth),
+      steps_(points == LC_POINTS_LIMIT ? std::max(depth, steps_of(mesh.sharpness)) : depth),
       points_(points),
       weights_(weights),
       terms_(terms(mesh_.faces, mesh_.positions.size())),

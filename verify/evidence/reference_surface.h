@@ -12,7 +12,6 @@
 #include "data/control_mesh.h"
 #include "reference/loop/masks.h"
 #include "verify/evidence/lattice.h"
-#include "verify/evidence/sides.h"
 #include "verify/evidence/vector.h"
 #include "verify/row/bounds.h"
 
@@ -24,6 +23,9 @@ struct ExactPoint {
   std::vector<std::string> position_digits, normal_digits;  // x, y, z
   bool has_normal;  // false: the tangents may be parallel, or there is no tangent plane (D5, D12)
 };
+
+/// After how many steps no tag is left but those that stay sharp.
+int steps_of(const data::Sharpness& tags);
 
 /// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
 /// several subjects share it.

@@ -45,7 +45,7 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
   for (const Use& use : e.uses) {
     if (use.side == Lattice::kNone || truth.sides().point(use.side) != id) continue;
     VertexAtPoint& v = result.vertices.emplace_back();
-    const ExactPoint* exact = result.refined ? nullptr : truth.certified().at(use.side);
+    const ExactPoint* exact = result.refined ? nullptr : truth.certified(use.side);
     v.vertex = use.vertex;
     v.position = tessellation.position(use.vertex);
     v.expected = exact != nullptr ? exact->position : truth.position(id);

@@ -76,6 +76,20 @@ std::string prepare(ReferenceSurface& truth, std::span<const Lattice::Id> points
   return {};
 }
 
+// Whether the relations belong to the audit of a mesh, of which this is judged.
+bool related(Level level, const AuditMesh& mesh, const data::ControlMesh& judged) {
+  return mesh.relations && (level == Level::kThorough ||
+                            (level == Level::kStandard && size_for_relations(judged) <= kRelationFaces));
+}
+
+// The rows of relations of the audit of a mesh.
+std::vector<std::string_view> rows_of_relations(Level level, const AuditMesh& mesh,
+                                                const data::ControlMesh& judged) {
+  if (related(level, mesh, judged)) return relation_rows_of(judged, mesh.scheme());
+  if (level == Level::kQuick || !mesh.asked_again || mesh.sample) return {};
+  return {"determinism"};
+}
+
 // How the places of a subject without provenance were found.
 std::string of_places(const Tessellation& t) {
   const Matching* found = t.matching();
@@ -119,17 +133,13 @@ struct Auditor::Rows {
     r.message = message;
     results.push_back(std::move(r));
   }
-  void add(const Check& check, Status status, const std::string& message) const {
-    for (const std::string_view row : check.rows) add(row, status, message);
-  }
   // The row `tessellates` of a subject that does not.
   void add_failure(const std::exception& error, const std::string& contradiction) const {
     const auto [status, origin] = breakdown_of(error);
     add("tessellates", contradiction.empty() ? status : Status::kFinding,
         contradiction.empty() ? error.what() : fmt::format("{}; {}", error.what(), contradiction));
-    results.back().of = 1;
-    results.back().bad = is_bad(results.back());
-    results.back().origin = origin;
+    Result& row = results.back();
+    row.of = 1, row.bad = is_bad(row), row.origin = origin;
   }
   // Not judged, for no fault of the subject.
   void add_lack(std::string_view check, const std::string& why) const {
@@ -150,18 +160,6 @@ void Auditor::step(const std::string& subject, const std::string& mesh, std::str
   if (keep_rows_) keep_rows_();
   const std::scoped_lock lock(shared_->mutex);
   if (shared_->on_step) shared_->on_step({subject, mesh, std::string(check), shared_->done, shared_->total});
-}
-
-bool Auditor::related(const AuditMesh& mesh, const data::ControlMesh& judged) const {
-  return mesh.relations && (level_ == Level::kThorough ||
-                            (level_ == Level::kStandard && size_for_relations(judged) <= kRelationFaces));
-}
-
-std::vector<std::string_view> Auditor::rows_of_relations(const AuditMesh& mesh,
-                                                         const data::ControlMesh& judged) const {
-  if (related(mesh, judged)) return relation_rows_of(judged, mesh.scheme());
-  if (level_ == Level::kQuick || !mesh.asked_again || mesh.sample) return {};
-  return {"determinism"};
 }
 
 ReferenceSurface& Auditor::reference(const data::ControlMesh& rounded, data::Scheme scheme, int depth,
@@ -238,7 +236,8 @@ std::vector<std::string> Auditor::row_names(const AuditSubject& audited, const A
   } else {
     for (const Check& check : checks())
       if (has_matter(check, mesh.mesh)) rows.insert(rows.end(), check.rows.begin(), check.rows.end());
-    for (const std::string_view row : rows_of_relations(mesh, mesh.sample ? mesh.sample->part() : mesh.mesh))
+    for (const std::string_view row :
+         rows_of_relations(level_, mesh, mesh.sample ? mesh.sample->part() : mesh.mesh))
       rows.emplace_back(row);
   }
   std::erase_if(rows, [&](const std::string& row) { return !wants(audited, mesh, row); });
@@ -297,11 +296,8 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     throw;  // no memory of this program's
   } catch (const std::exception& error) {
     rows.add_failure(error, contradicts_capabilities(error, audited, mesh, asked));
-    for (const Check& check : checks())
-      if (has_matter(check, mesh.mesh)) rows.add(check, Status::kNotRun, "there is no tessellation");
-    const data::ControlMesh& whole_or_part = sample ? sample->part() : mesh.mesh;
-    for (const std::string_view r : rows_of_relations(mesh, whole_or_part))
-      rows.add(r, Status::kNotRun, "there is no tessellation");
+    for (const std::string& row : row_names(audited, mesh))
+      if (row != "tessellates") rows.add(row, Status::kNotRun, "there is no tessellation");
     return;
   }
 
@@ -329,13 +325,13 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     step(rows.subject, mesh.name, relation);
     return true;
   };
-  if (related(mesh, judged)) {
+  if (related(level_, mesh, judged)) {
     std::unique_lock lock(shared_->mutex);
     std::vector<Refusal>& refusals = shared_->refusals[{rows.subject, mesh.scheme()}];
     lock.unlock();
     for (Result& r : check_relations(audited, evidence, threads_, refusals, told))
       results.push_back(std::move(r));
-  } else if (!rows_of_relations(mesh, judged).empty() && told("determinism")) {
+  } else if (!rows_of_relations(level_, mesh, judged).empty() && told("determinism")) {
     results.push_back(check_determinism(audited, evidence));
   }
 }

@@ -87,13 +87,6 @@ class Auditor {
   };
   struct Work;
 
-  // One that works beside it: the same audit, with a reference of its own.
-  explicit Auditor(const Auditor& first, int)
-      : depth_(first.depth_),
-        threads_(first.threads_),
-        level_(first.level_),
-        shared_(first.shared_),
-        leaves_(first.leaves_) {}
   // Takes meshes until there is none left.
   void take_part(Work& work);
   void run_unit(Work& work, std::size_t mesh, std::size_t subject);
@@ -106,11 +99,6 @@ class Auditor {
   // row: at a signal there may be thousands of such pairs, and a second to write a report.
   void add_missing(const AuditSubject& subject, const AuditMesh& mesh, bool begun, const std::string& lack,
                    std::vector<Result>& results);
-  // Whether the relations belong to the audit of a mesh, of which this is judged.
-  bool related(const AuditMesh& mesh, const data::ControlMesh& judged) const;
-  // The rows of relations of the audit of a mesh.
-  std::vector<std::string_view> rows_of_relations(const AuditMesh& mesh,
-                                                  const data::ControlMesh& judged) const;
   bool wants(const AuditSubject& subject, const AuditMesh& mesh, std::string_view check) const {
     return !shared_->wanted || shared_->wanted(subject, mesh, check);
   }
@@ -123,7 +111,8 @@ class Auditor {
   int depth_, threads_;
   Level level_;
   std::shared_ptr<Shared> shared_;
-  std::vector<std::unique_ptr<Auditor>> others_;  // that work beside it
+  // That work beside it: the same audit, with references of their own.
+  std::vector<std::unique_ptr<Auditor>> others_;
   std::string lack_;
   bool gave_up_ = false, leaves_ = false, abandoned_ = false;
   std::function<void()> keep_rows_;  // called between two checks

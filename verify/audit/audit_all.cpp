@@ -86,8 +86,9 @@ std::vector<Result> Auditor::run(const std::vector<AuditSubject>& subjects,
   const std::size_t workers =
       std::min({static_cast<std::size_t>(threads_), work.asked.size(), meshes.size()});
   while (threads.size() + 1 < workers) try {
-      others_.push_back(std::unique_ptr<Auditor>(new Auditor(*this, 0)));
-      threads.emplace_back([&work, other = others_.back().get()] { other->take_part(work); });
+      Auditor& other = *others_.emplace_back(std::make_unique<Auditor>(depth_, threads_, nullptr, level_));
+      other.shared_ = shared_, other.leaves_ = leaves_;
+      threads.emplace_back([&work, &other] { other.take_part(work); });
     } catch (const std::system_error&) {  // there are no more threads to be had
       break;
     }

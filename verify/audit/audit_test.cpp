@@ -10,7 +10,6 @@
 #include <chrono>
 #include <csignal>
 #include <map>
-#include <ostream>
 #include <semaphore>
 #include <set>
 #include <thread>
@@ -134,66 +133,43 @@ TEST(Audit, AMeshThatIsOnePointBlamesNoSoundSubjectAndSeesAWrongMask) {
   EXPECT_EQ(row(results, "positions").status, Status::kFinding) << describe(results);
 }
 
-struct Planted {
-  const char* fault;
-  std::vector<const char*> seen_by;  // these at least
-};
-// GoogleTest's name for a row.
-void PrintTo(const Planted& planted, std::ostream* out) {
-  *out << planted.fault;
+// The faults that can be planted in any mesh.
+std::vector<std::string> planted() {
+  std::vector<std::string> names;
+  for (const Fault& f : faults())
+    if (f.name != "none" && !f.on_some_meshes) names.push_back(f.name);
+  return names;
 }
 
-// Which checks must report which fault. A fault may turn more of them red (a shifted provenance spoils nearly
-// everything), so these are the ones whose business it is.
-const std::vector<Planted>& kill_table() {
-  static const std::vector<Planted> table{
-      {"nan_position", {"finite"}},
-      {"infinite_position", {"finite"}},
-      {"nan_normal", {"finite"}},
-      {"unwritten_position", {"written"}},
-      {"unwritten_normal", {"written"}},
-      {"unwritten_triangle", {"written", "coverage", "watertight"}},
-      {"wrong_limit_mask", {"positions"}},
-      {"wrong_edge_mask", {"positions"}},
-      {"flipped_normals", {"normals", "normals-against-positions"}},
-      {"one_flipped_normal", {"normals"}},
-      {"long_normals", {"normal-length"}},
-      {"shifted_provenance", {"positions", "coverage"}},
-      {"mirrored_provenance", {"positions", "orientation"}},
-      {"swapped_points", {"positions", "orientation"}},
-      {"provenance_out_of_range", {"written", "coverage"}},
-      {"flipped_orientation", {"orientation"}},
-      {"one_flipped_triangle", {"orientation", "watertight"}},
-      {"missing_triangle", {"coverage", "watertight"}},
-      {"duplicated_triangle", {"coverage", "watertight"}},
-      {"wrong_triangle_face", {"coverage"}},
-      {"index_out_of_range", {"written", "coverage", "watertight"}},
-      {"t_vertex", {"t-vertices", "coverage", "watertight"}},
-      {"one_ulp_crack", {"shared-positions", "watertight"}},
-      {"one_ulp_normal", {"shared-normals"}},
-      {"negative_count", {"written"}},
-      {"count_too_large", {"written"}},
-      {"foreign_memory", {"written"}},
-      {"write_behind", {"written"}},
-      {"write_before", {"written"}},
-      {"modified_mesh", {"written"}},
-      {"overlapping_arrays", {"written"}},
-      {"unwritten_provenance", {"written"}},
-      {"unwritten_triangle_face", {"written"}},
-      {"unmoved_vertices", {"positions"}},
-      {"snapped_positions", {"positions"}},
-      {"face_twice", {"coverage"}},
-  };
-  return table;
-}
+// Which checks must report which fault, if not the one alone that is meant for it. (verify/mutants tests that the default
+// audit finds each by that.) A fault may turn more of them red (a shifted provenance spoils nearly everything), so
+// these are the ones whose business it is.
+const std::map<std::string, std::vector<std::string>> kSeenBy{
+    {"unmoved_vertices", {"positions"}},
+    {"unwritten_triangle", {"written", "coverage", "watertight"}},
+    {"flipped_normals", {"normals", "normals-against-positions"}},
+    {"shifted_provenance", {"positions", "coverage"}},
+    {"mirrored_provenance", {"positions", "orientation"}},
+    {"swapped_points", {"positions", "orientation"}},
+    {"provenance_out_of_range", {"written", "coverage"}},
+    {"one_flipped_triangle", {"orientation", "watertight"}},
+    {"missing_triangle", {"coverage", "watertight"}},
+    {"duplicated_triangle", {"coverage", "watertight"}},
+    {"index_out_of_range", {"written", "coverage", "watertight"}},
+    {"t_vertex", {"t-vertices", "coverage", "watertight"}},
+    {"one_ulp_crack", {"shared-positions", "watertight"}}};
 
-class PlantedFault : public testing::TestWithParam<Planted> {};
+class PlantedFault : public testing::TestWithParam<std::string> {};
 
 TEST_P(PlantedFault, IsSeenByTheChecksWhoseBusinessItIs) {
   const auto results =
-      run(lc_subject_faulty(), faulty_options(GetParam().fault, kBase, kBaseOptions), "bumpy:60", 2);
+      run(lc_subject_faulty(), faulty_options(GetParam(), kBase, kBaseOptions), "bumpy:60", 2);
+  const auto fault =
+      std::find_if(faults().begin(), faults().end(), [](const Fault& f) { return f.name == GetParam(); });
+  const auto others = kSeenBy.find(fault->name);
   const std::set<std::string> names = red(results);
-  for (const char* check : GetParam().seen_by)
+  for (const std::string& check :
+       others == kSeenBy.end() ? std::vector<std::string>{fault->check} : others->second)
     EXPECT_TRUE(names.contains(check)) << check << " did not see it:\n" << describe(results);
   for (const Result& r : results) {
     EXPECT_NE(r.status, Status::kError) << r.check << ": " << r.message;
@@ -203,17 +179,8 @@ TEST_P(PlantedFault, IsSeenByTheChecksWhoseBusinessItIs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(kill_table()),
-                         [](const auto& instance) { return std::string(instance.param.fault); });
-
-// verify/mutants tests that every row of the audit finds some fault.
-TEST(PlantedFaults, AreAllInTheTable) {
-  std::set<std::string> planted;
-  for (const Planted& p : kill_table()) planted.insert(p.fault);
-  for (const Fault& f : faults())
-    EXPECT_TRUE(f.name == "none" || f.on_some_meshes || planted.contains(std::string(f.name)))
-        << f.name << ": " << f.description;
-}
+INSTANTIATE_TEST_SUITE_P(All, PlantedFault, testing::ValuesIn(planted()),
+                         [](const auto& instance) { return instance.param; });
 
 TEST(PlantedFaults, APerfectCopyOfAGoodSubjectHolds) {
   const auto results = run(lc_subject_faulty(), faulty_options("none", kBase, kBaseOptions), "bumpy:60", 2);

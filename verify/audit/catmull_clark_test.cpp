@@ -11,7 +11,6 @@
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/projection/test_meshes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/audit/cover.h"
+#include "verify/audit/default_plan.h"
 
 #include <fmt/core.h>
 
@@ -14,7 +14,6 @@
 #include "data/generators/star_meshes.h"
 #include "data/sharpness_classes.h"
 #include "data/splitmix64.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/subject/lent_mesh.h"
 
 namespace limitcheck::verify {

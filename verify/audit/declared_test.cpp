@@ -170,29 +170,21 @@ TEST(Weights, SoundSubjectsOfWarrensHold) {
         EXPECT_GT(row(results, check).of, 0) << check;
       }
     }
-    for (const Result& r : audit("model", "weights=warren", mesh, Level::kThorough))
-      EXPECT_FALSE(is_bad(r)) << mesh << ' ' << r.check << ": " << r.message;
-  }
-}
-
-TEST(Weights, RefinedPointsOfWarrensHold) {
-  for (const char* mesh : kMeshes) {
-    const auto results = audit("model", "weights=warren,points=refined", mesh, Level::kQuick);
-    for (const Result& r : results) EXPECT_FALSE(is_bad(r)) << mesh << ' ' << r.check << ": " << r.message;
-    EXPECT_EQ(row(results, "refined-positions").status, Status::kHeld) << mesh;
-    EXPECT_EQ(row(results, "positions").status, Status::kNotSupported) << mesh;
+    const auto refined = audit("model", "weights=warren,points=refined", mesh, Level::kQuick);
+    EXPECT_EQ(row(refined, "refined-positions").status, Status::kHeld) << mesh;
+    EXPECT_EQ(row(refined, "positions").status, Status::kNotSupported) << mesh;
+    for (const auto& results : {audit("model", "weights=warren", mesh, Level::kThorough), refined})
+      for (const Result& r : results) EXPECT_FALSE(is_bad(r)) << mesh << ' ' << r.check << ": " << r.message;
   }
 }
 
 TEST(Weights, OfTheOtherFamilyAreFound) {
-  for (const char* options :
-       {"mutation=warren_weights", "mutation=warren_declared", "mutation=warren_limit_of_loop"})
-    EXPECT_EQ(row(audit("model", options, "octahedron", Level::kQuick), "positions").status, Status::kFinding)
-        << options;
-  for (const char* options :
-       {"points=refined,mutation=warren_weights", "points=refined,mutation=warren_declared"})
-    EXPECT_EQ(row(audit("model", options, "octahedron", Level::kQuick), "refined-positions").status,
-              Status::kFinding)
+  for (const auto& [check, options] : {std::pair{"positions", "mutation=warren_weights"},
+                                       {"positions", "mutation=warren_declared"},
+                                       {"positions", "mutation=warren_limit_of_loop"},
+                                       {"refined-positions", "points=refined,mutation=warren_weights"},
+                                       {"refined-positions", "points=refined,mutation=warren_declared"}})
+    EXPECT_EQ(row(audit("model", options, "octahedron", Level::kQuick), check).status, Status::kFinding)
         << options;
 }
 

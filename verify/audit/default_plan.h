@@ -2,16 +2,19 @@
 // The meshes and depths of `limitcheck audit SUBJECT` when the command line names neither.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
+#include "data/generators/star_meshes.h"
 #include "verify/audit/audit.h"
-#include "verify/audit/cover.h"
+#include "verify/evidence/cells.h"
 
 namespace limitcheck::verify {
 
 /// The cases, those of the same mesh one after the other: the worst cases known (data/worst_cases.h; not at
 /// kQuick), the stock shapes (data/generators/named_mesh.h), deep levels, unequal depths, awkward topology and
-/// geometry, what the relations need, the stars that look at all other kinds of neighbourhood (cover.h,
+/// geometry, what the relations need, the stars that look at all other kinds of neighbourhood (cover(),
 /// data/generators/star_meshes.h), and parts of meshes whose indices need more than 16 bits.
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
@@ -19,5 +22,46 @@ std::vector<AuditMesh> default_plan(Level level);
 /// The cases of a scheme and of sharp edges that some of the subjects does; all without sharp edges if a
 /// subject does not say.
 std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects);
+
+// How the plan comes about: meshes that cover kinds of neighbourhood (cover.cpp).
+
+/// A case of the plan: a mesh by its name, a depth, and how the depths of faces are chosen.
+struct PlannedCase {
+  std::string mesh;
+  int depth = 0;
+  std::string depths = "uniform";
+  bool relations = false;
+  bool asked_again = true;  // AuditMesh::asked_again
+};
+/// Of meshes of more vertices than 15 bits number, a sample.
+AuditMesh made(const PlannedCase& planned);
+
+/// Stars (data/generators/star_meshes.h) and their depths.
+struct CoveringStars {
+  data::Stars stars;
+  int depth = 0;
+  std::string depths = "uniform";
+  bool relations = false;
+};
+/// What a case looks at, and what it asks of a subject (Feature::needs).
+struct Looked {
+  std::int32_t needs;
+  CellSet cells;
+};
+Looked look_at(const AuditMesh& mesh);
+
+/// What subjects do, from nothing beyond smooth surfaces to all: whatever a subject does, there are cases for
+/// it that ask for no more.
+const std::vector<std::int32_t>& steps_of_ability();
+
+/// Those that look at the cells of a scheme which `known` cases do not, for each step of ability, as far as
+/// they are found: greedily those that look at most for their time. The same for the same seed. `known` has
+/// them added.                                                                                     O(minutes)
+std::vector<CoveringStars> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed);
+/// The cells that need no more than a subject does, and whether cases that need no more look at them.
+struct Covered {
+  CellSet wanted, looked;
+};
+Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::int32_t ability);
 
 }  // namespace limitcheck::verify

@@ -11,7 +11,6 @@
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "data/validate.h"
-#include "verify/evidence/face_depths.h"
 
 namespace limitcheck::verify {
 namespace {

@@ -8,7 +8,6 @@
 #include "data/cut_out.h"
 #include "data/validate.h"
 #include "verify/audit/audit.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/relations.h"
 #include "verify/row/statistics.h"

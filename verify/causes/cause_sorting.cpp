@@ -175,12 +175,10 @@ class Sorting {
       }
     for (const std::size_t k : several) {
       const std::set<Region> list = regions(row(k));
-      const auto count = [&](Region region) {
-        const auto found = sure.find({base_name(row(k).subject), region});
-        return found == sure.end() ? 0 : found->second;
-      };
-      region_[k] = *std::max_element(list.begin(), list.end(),
-                                     [&](Region a, Region b) { return count(a) < count(b); });
+      const std::string name = base_name(row(k).subject);
+      region_[k] = *std::max_element(list.begin(), list.end(), [&](Region a, Region b) {
+        return sure[{name, a}] < sure[{name, b}];
+      });
     }
   }
 

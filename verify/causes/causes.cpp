@@ -18,7 +18,7 @@ namespace {
 
 // The worst of one check among the rows that show a cause.
 struct Worst {
-  double worst = 0, bound = 0;
+  double worst = 0;
   std::int64_t bad = 0, of = 0;
   const Result* row = nullptr;
 };
@@ -31,7 +31,7 @@ std::map<std::string, Worst> worst_of(const Report& report, const Cause& cause) 
     w.bad += r.bad;
     w.of += r.of;
     if (w.row != nullptr && r.worst.value_or(0) <= w.worst) continue;
-    w = {r.worst.value_or(0), r.bound.value_or(0), w.bad, w.of, &r};
+    w.worst = r.worst.value_or(0), w.row = &r;
   }
   return all;
 }
@@ -95,15 +95,21 @@ void describe_not_finite(const Report& report, Cause& cause) {
   if (worst.contains("scaling")) when.emplace_back("on meshes 2^40 times smaller or larger");
   cause.title = fmt::format("NaN, infinity or a normal of length 0{}{}", when.empty() ? "" : ": ",
                             fmt::join(when, "; "));
-  cause.look =
-      "where a vector is divided by its length: the length is 0, or its square is too small or large";
-  cause.size = 3;
 }
 
 void describe_seams(const Report& report, Cause& cause) {
   const auto worst = worst_of(report, cause);
-  const auto positions = worst.find("shared-positions"), normals = worst.find("shared-normals");
-  if (positions == worst.end() && normals == worst.end()) {
+  std::vector<std::string> shares;
+  double gap = 0, turn = 0;
+  const auto share = [&](const char* check, const char* of, double& most) {
+    const auto found = worst.find(check);
+    if (found == worst.end()) return;
+    shares.push_back(percent(found->second.bad, found->second.of) + of);
+    most = found->second.worst;
+  };
+  share("shared-positions", " of the positions", gap);
+  share("shared-normals", " of the normals", turn);
+  if (shares.empty()) {
     cause.title = worst.contains("t-vertices") || worst.contains("watertight")
                       ? "Cracks: faces that meet do not end in the same vertices"
                       : "Faces that meet differ at common points by more than rounding";
@@ -111,20 +117,8 @@ void describe_seams(const Report& report, Cause& cause) {
     cause.size = 2;
     return;
   }
-  std::vector<std::string> shares;
-  double gap = 0, turn = 0;
-  if (positions != worst.end()) {
-    shares.push_back(percent(positions->second.bad, positions->second.of) + " of the positions");
-    gap = positions->second.worst;
-  }
-  if (normals != worst.end()) {
-    shares.push_back(percent(normals->second.bad, normals->second.of) + " of the normals");
-    turn = normals->second.worst;
-  }
   cause.title = fmt::format("Points that faces share differ in bits: {}, by up to {:.1e} diagonals{}",
                             fmt::join(shares, " and "), gap, turn > 0 ? " and " + degrees(turn) : "");
-  cause.look = "sums whose order depends on the face; compute what is shared once, or in one order";
-  cause.size = 1;
 }
 
 // What a subject took that it should have refused, over all rows.
@@ -137,8 +131,6 @@ void describe_accepts(const Report& report, Cause& cause) {
   constexpr std::size_t kLongest = 160;
   if (list.size() > kLongest) list = list.substr(0, list.rfind(' ', kLongest)) + " ...";
   cause.title = "Broken meshes are accepted without a word" + list;
-  cause.look = "what is checked of a mesh before it is used";
-  cause.size = 1;
 }
 
 std::string first_sentence(const std::string& message) {
@@ -146,53 +138,64 @@ std::string first_sentence(const std::string& message) {
   return text.size() > 140 ? text.substr(0, 140) + " ..." : text;
 }
 
-void put_in_words(const Report& report, Cause& cause) {
+// By the example's message, and of which checks.
+void describe_checks(const Report& report, Cause& cause) {
   const Result& example = report.results[cause.example];
-  const auto plain = [&](const char* what, const char* look, int size) {
-    cause.title = fmt::format("{}: {}", what, first_sentence(example.message));
-    cause.look = look;
-    cause.size = size;
-  };
-  switch (cause.kind) {
-    case CauseKind::kSurface:
-      return describe_surface(report, cause);
-    case CauseKind::kNotFinite:
-      return describe_not_finite(report, cause);
-    case CauseKind::kSeams:
-      return describe_seams(report, cause);
-    case CauseKind::kAccepts:
-      return describe_accepts(report, cause);
-    case CauseKind::kBreakdown:
-      return plain(example.status == Status::kCrash     ? "Crashes"
-                   : example.status == Status::kTimeout ? "Does not answer in time"
-                                                        : "Fails",
-                   "", 3);
-    case CauseKind::kRefuses:
-      return plain("A valid mesh is refused", "say so in the capabilities, or take it", 2);
-    case CauseKind::kUnwritten:
-      return plain("Arrays are not as announced", "", 3);
-    case CauseKind::kTiling:
-      return plain("Faces are not tiled once, or triangles face the wrong way", "", 3);
-    case CauseKind::kOrder:
-    case CauseKind::kOther: {
-      std::set<std::string> checks;
-      double worst = 0;
-      for (const std::size_t k : cause.direct) {
-        checks.insert(report.results[k].check);
-        worst = std::max(worst, report.results[k].worst.value_or(0));
-      }
-      cause.title =
-          cause.kind == CauseKind::kOrder
-              ? fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "))
-              : fmt::format("{}: {}", fmt::join(checks, ", "),
-                            example.message.empty() ? "beyond its bound" : first_sentence(example.message));
-      if (worst > 1 && example.unit == "bounds")
-        cause.title += fmt::format(", up to {:.2g} times what rounding explains", worst);
-      cause.look = cause.kind == CauseKind::kOrder ? first_sentence(example.message) : "";
-      cause.size = worst >= 100 ? 3 : 2;
-      return;
-    }
+  const std::string sentence = first_sentence(example.message);
+  std::set<std::string> checks;
+  double worst = 0;
+  for (const std::size_t k : cause.direct) {
+    checks.insert(report.results[k].check);
+    worst = std::max(worst, report.results[k].worst.value_or(0));
   }
+  if (cause.kind == CauseKind::kOrder) {
+    cause.title =
+        fmt::format("The answer depends on what it must not depend on ({})", fmt::join(checks, ", "));
+    cause.look = sentence;
+  } else {
+    cause.title = fmt::format("{}: {}", fmt::join(checks, ", "),
+                              example.message.empty() ? "beyond its bound" : sentence);
+  }
+  if (worst > 1 && example.unit == "bounds")
+    cause.title += fmt::format(", up to {:.2g} times what rounding explains", worst);
+  cause.size = worst >= 100 ? 3 : 2;
+}
+
+void describe_breakdown(const Report& report, Cause& cause) {
+  const Result& example = report.results[cause.example];
+  const char* what = example.status == Status::kCrash     ? "Crashes"
+                     : example.status == Status::kTimeout ? "Does not answer in time"
+                                                          : "Fails";
+  cause.title = fmt::format("{}: {}", what, first_sentence(example.message));
+}
+
+// Title, where to look and size of each kind, in the order of CauseKind. A title goes on with the first sentence of the
+// example's message, unless the cause is described in its own way.
+struct Words {
+  const char *title, *look;
+  int size;
+  void (*describe)(const Report&, Cause&) = nullptr;
+};
+constexpr Words kWords[] = {
+    {"", "", 3, describe_breakdown},
+    {"A valid mesh is refused", "say so in the capabilities, or take it", 2},
+    {"Arrays are not as announced", "", 3},
+    {"", "where a vector is divided by its length: the length is 0, or its square is too small or large", 3,
+     describe_not_finite},
+    {"", "", 0, describe_surface},
+    {"Faces are not tiled once, or triangles face the wrong way", "", 3},
+    {"", "sums whose order depends on the face; compute what is shared once, or in one order", 1,
+     describe_seams},
+    {"", "", 0, describe_checks},
+    {"", "what is checked of a mesh before it is used", 1, describe_accepts},
+    {"", "", 0, describe_checks}};
+
+void put_in_words(const Report& report, Cause& cause) {
+  const auto& [title, look, size, describe] = kWords[static_cast<std::size_t>(cause.kind)];
+  cause.title = fmt::format("{}: {}", title, first_sentence(report.results[cause.example].message));
+  cause.look = look;
+  cause.size = size;
+  if (describe != nullptr) describe(report, cause);
 }
 
 using Pairs = std::set<std::pair<std::string, Case>>;  // of subject and case
@@ -212,28 +215,23 @@ std::string only_with(const Report& report, const Pairs& wrong, const Pairs& loo
   for (const auto& [subject, at] : looked) is_wrong[at] |= wrong.contains({subject, at});
   std::map<data::Scheme, CellSet> always, elsewhere;
   for (const auto& [at, bad] : is_wrong) {
-    const auto found = known.find(at);
-    if (found == known.end()) return "";
-    const auto& [where, scheme, looks_at] = *found->second;
-    if (!bad) {
-      add_cells(elsewhere.try_emplace(scheme, looks_at.size()).first->second, looks_at);
-      continue;
-    }
-    CellSet& all = always.try_emplace(scheme, looks_at).first->second;
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = all[k] && looks_at[k];
+    if (!known.contains(at)) return "";
+    const CaseCells& c = *known[at];
+    const auto [set, is_new] = (bad ? always : elsewhere).try_emplace(c.scheme, c.cells);
+    for (std::size_t k = 0; k < c.cells.size(); ++k)
+      set->second[k] = bad ? set->second[k] && c.cells[k] : set->second[k] || c.cells[k];
   }
   if (always.size() != 1) return "";
   const auto& [scheme, all] = *always.begin();
   const CellSet& others = elsewhere[scheme];
-  std::string one, pair;
-  int singles = 0, pairs = 0;
+  std::vector<std::string> singles, pairs;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!all[k] || others.empty() || others[k]) continue;
     const Cell& cell = cells(scheme)[k];
-    ++(cell.first == cell.second ? singles : pairs);
-    (cell.first == cell.second ? one : pair) = cell.name();
+    (cell.first == cell.second ? singles : pairs).push_back(cell.name());
   }
-  return singles == 1 ? one : singles == 0 && pairs == 1 ? pair : "";
+  const std::vector<std::string>& names = singles.empty() ? pairs : singles;
+  return names.size() == 1 ? names.front() : "";
 }
 
 std::int64_t faces_of(const Report& report, const Result& r) {

@@ -13,9 +13,7 @@
 #include "data/test_support/assertions.h"
 #include "verify/audit/audit.h"
 #include "verify/evidence/cells.h"
-#include "verify/report/baseline.h"
 #include "verify/report/forms.h"
-#include "verify/report/json.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
@@ -216,29 +214,6 @@ TEST(Overview, HasEveryCheckOnceAndCountsCases) {
   report.results[1].status = Status::kHeld;
   EXPECT_EQ(verdict_of(report, "s", check_groups(report)[2]).text(), "1/2");
   EXPECT_EQ(verdict_of(report, "s", check_groups(report)[3]).text(), "not asked");
-}
-
-TEST(Baseline, TellsNewFromWorseFromGone) {
-  Report before = report_of({red("s", "same", "positions", 1), red("s", "worse", "positions", 1),
-                             red("s", "gone", "positions", 1), red("s", "new", "positions", 1)});
-  before.results[3].status = Status::kHeld;
-  const std::string json = to_json(before);
-  Report now = before;
-  now.results[1].worst = 2;
-  now.results[2].status = Status::kHeld;
-  now.results[3].status = Status::kFinding;
-  compare_with_baseline(now, json, "old.json");
-  ASSERT_TRUE(now.changes);
-  EXPECT_EQ(now.changes->appeared, 1);
-  EXPECT_EQ(now.changes->worse, 1);
-  EXPECT_EQ(now.changes->gone, 1);
-  EXPECT_EQ(now.changes->same, 1);
-  EXPECT_FALSE(now.held());
-  Report again = before;
-  compare_with_baseline(again, json, "old.json");
-  EXPECT_TRUE(again.held()) << "all of it is known";
-  EXPECT_THROW(compare_with_baseline(again, "{}", "old.json"), std::exception);
-  EXPECT_THROW(compare_with_baseline(again, "no JSON", "old.json"), std::exception);
 }
 
 }  // namespace

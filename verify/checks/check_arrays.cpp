@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "verify/checks/checks.h"
 #include "verify/evidence/evidence.h"
 #include "verify/evidence/vector.h"
@@ -51,24 +54,17 @@ std::vector<Result> check_written(const Evidence& e) {
     for (const std::uint32_t v : t.triangles()[k]) any = any || v == static_cast<std::uint32_t>(kUnwritten32);
     triangles += any;
     faces += t.triangle_face()[k] == kUnwritten32;
-    if (any && !r.witness) {
-      r.witness = Witness{};
-      r.witness->triangle = k;
-      r.witness->face = t.triangle_face()[k];
-    }
+    if (any && !r.witness) r.witness = Witness{.face = t.triangle_face()[k], .triangle = k};
   }
-  add(r, positions, fmt::format("{} positions unwritten", positions));
-  add(r, normals, fmt::format("{} normals unwritten", normals));
-  add(r, provenance, fmt::format("{} provenances unwritten", provenance));
-  add(r, triangles, fmt::format("{} triangles unwritten", triangles));
-  add(r, faces, fmt::format("{} control faces of triangles unwritten", faces));
-
-  if (t.vertex_count() == 0 && structural == 0)
-    for (const std::int32_t d : e.face_depth)
-      if (d >= 0) {
-        add(r, 1, "nothing was delivered");
-        break;
-      }
+  for (const auto& [count, what] : {std::pair{positions, "positions"},
+                                    {normals, "normals"},
+                                    {provenance, "provenances"},
+                                    {triangles, "triangles"},
+                                    {faces, "control faces of triangles"}})
+    add(r, count, fmt::format("{} {} unwritten", count, what));
+  if (t.vertex_count() == 0 && structural == 0 &&
+      std::any_of(e.face_depth.begin(), e.face_depth.end(), [](std::int32_t d) { return d >= 0; }))
+    add(r, 1, "nothing was delivered");
   r.of = 3 * t.vertex_count() + 2 * t.triangle_count();
   if (r.bad > 0) r.status = Status::kFinding;
   return {r};

@@ -19,7 +19,7 @@
 #include "reference/surface/surface.h"
 #include "verify/evidence/faces_around.h"
 #include "verify/evidence/lattice.h"
-#include "verify/evidence/sides.h"
+#include "verify/evidence/reference_surface.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/adapter.h"
 
@@ -137,17 +137,6 @@ struct DoubleBound {
   }
 };
 
-int steps_of(const data::Sharpness& tags) {
-  float sharpest = 0;
-  const auto look = [&](float s) {
-    if (s < data::kInfiniteSharpness) sharpest = std::max(sharpest, s);
-  };
-  for (const data::SharpEdge& e : tags.edges) look(e.sharpness);
-  for (const data::SharpVertex& v : tags.vertices) look(v.sharpness);
-  // One for an edge that stays sharp and has no other at its ends, one for faces that are no quads.
-  return static_cast<int>(std::ceil(sharpest)) + 2;
-}
-
 class OracleCheck {
  public:
   OracleCheck(const AuditMesh& mesh, const Oracle& oracle)
@@ -156,7 +145,8 @@ class OracleCheck {
         oracle_(oracle),
         certify_(oracle(mesh_, scheme_)),
         around_(mesh_.faces, mesh_.positions.size()),
-        steps_(steps_of(mesh_.sharpness)),
+        // One for an edge that stays sharp and has no other at its ends, one for faces that are no quads.
+        steps_(steps_of(mesh_.sharpness) + 2),
         bound_(mesh_, around_, steps_),
         rows_{row_of(mesh, "oracle-faces"), row_of(mesh, "oracle-double"), row_of(mesh, "oracle-parts")} {}
 
@@ -317,11 +307,10 @@ class OracleCheck {
     ++r.bad;
     r.status = Status::kFinding;
     r.message = what;
-    Witness w;
-    w.face = at.face, w.l1 = fraction(at.i, at.denominator), w.l2 = fraction(at.j, at.denominator);
+    r.witness =
+        Witness{.face = at.face, .l1 = fraction(at.i, at.denominator), .l2 = fraction(at.j, at.denominator)};
     if (scheme_ == data::Scheme::kCatmullClark && mesh_.faces[static_cast<std::size_t>(at.face)].size() != 4)
-      w.corner = at.corner;
-    r.witness = std::move(w);
+      r.witness->corner = at.corner;
   }
 
   const ControlMesh& mesh_;

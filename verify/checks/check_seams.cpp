@@ -3,7 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <numeric>
+#include <span>
 #include <unordered_map>
 
 #include "verify/checks/checks.h"
@@ -13,65 +13,40 @@
 namespace limitcheck::verify {
 namespace {
 
-// The vertices of each shared point, or of each side of one, that is delivered more than once, in ascending
-// order.
-struct Groups {
-  std::vector<std::int64_t> vertices;
-  std::vector<std::int64_t> start;  // one more than there are groups
-  std::size_t size() const { return start.size() - 1; }
-  std::span<const std::int64_t> operator[](std::size_t g) const {
-    return {vertices.data() + start[g], static_cast<std::size_t>(start[g + 1] - start[g])};
-  }
-};
-
-// Of the vertices whose value is finite.
+// The uses of each shared point, or of each side of one, that is delivered more than once, as a finite value: each
+// a part of `uses`, which are sorted.
 //   uses   each vertex with a point, or with a side
 template <class Value>
-Groups group(const Evidence& e, const std::vector<Use>& uses, Value value) {
-  const auto counts = [&](const Use& use) {
-    return use.side != Lattice::kNone && e.lattice.is_shared(e.reference.sides().point(use.side)) &&
-           is_finite(value(use.vertex));
-  };
-  Sides::Id ids = 0;  // the ids of shared points are the first ones
-  for (const Use& use : uses)
-    if (counts(use)) ids = std::max(ids, use.side + 1);
-  std::vector<std::int64_t> count(static_cast<std::size_t>(ids) + 1, 0);
-  for (const Use& use : uses)
-    if (counts(use)) ++count[use.side + 1];
-  std::partial_sum(count.begin(), count.end(), count.begin());
-  std::vector<std::int64_t> sorted(count.back());
-  std::vector<std::int64_t> fill(count.begin(), count.end() - 1);
-  for (const Use& use : uses)
-    if (counts(use)) sorted[fill[use.side]++] = use.vertex;
-
-  Groups groups;
-  groups.start.push_back(0);
-  for (Sides::Id id = 0; id < ids; ++id) {
-    if (count[id + 1] - count[id] < 2) continue;
-    groups.vertices.insert(groups.vertices.end(), sorted.begin() + count[id], sorted.begin() + count[id + 1]);
-    groups.start.push_back(static_cast<std::int64_t>(groups.vertices.size()));
+std::vector<std::span<const Use>> groups(const Evidence& e, std::vector<Use>& uses, Value value) {
+  std::erase_if(uses, [&](const Use& use) {
+    return use.side == Lattice::kNone || !e.lattice.is_shared(e.reference.sides().point(use.side)) ||
+           !is_finite(value(use.vertex));
+  });
+  std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.side < b.side; });
+  std::vector<std::span<const Use>> several;
+  for (auto first = uses.begin(); first != uses.end();) {
+    const auto last =
+        std::find_if(first, uses.end(), [&](const Use& use) { return use.side != first->side; });
+    if (last - first > 1) several.emplace_back(first, last);
+    first = last;
   }
-  return groups;
+  return several;
 }
 
 // Compares each vertex of a group with the first one.
 template <class Bits, class Value, class Distance>
-void compare(const Evidence& e, const std::vector<Use>& uses, Bits bits, Value value, Distance distance,
-             Result& r) {
-  const Groups groups = group(e, uses, value);
-  std::vector<double> far(groups.size(), 0);  // the largest distance in the group
-  std::vector<std::int64_t> other(groups.size(), -1);
-  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    const auto vertices = groups[g];
-    const auto first = bits(vertices[0]);
-    for (const std::int64_t v : vertices.subspan(1)) {
+void compare(const Evidence& e, std::vector<Use> uses, Bits bits, Value value, Distance distance, Result& r) {
+  const std::vector<std::span<const Use>> shared = groups(e, uses, value);
+  std::vector<double> far(shared.size(), 0);  // the largest distance in the group
+  std::vector<std::int64_t> other(shared.size(), -1);
+  tbb::parallel_for(std::size_t{0}, shared.size(), [&](std::size_t g) {
+    const std::int64_t first = shared[g].front().vertex;
+    const auto its = bits(first);
+    for (const auto& [v, side] : shared[g].subspan(1)) {
       const auto mine = bits(v);
-      if (std::equal(first.begin(), first.end(), mine.begin())) continue;
-      const double d = distance(value(vertices[0]), value(v));
-      if (other[g] < 0 || d > far[g]) {
-        far[g] = d;
-        other[g] = v;
-      }
+      if (std::equal(its.begin(), its.end(), mine.begin())) continue;
+      const double d = distance(value(first), value(v));
+      if (other[g] < 0 || d > far[g]) far[g] = d, other[g] = v;
     }
   });
   const Statistics s = summarise(far, 0);
@@ -94,7 +69,7 @@ void compare(const Evidence& e, const std::vector<Use>& uses, Bits bits, Value v
   if (other[g] < 0)  // they differ in the sign of a zero only: distance 0
     g = static_cast<std::size_t>(std::find_if(other.begin(), other.end(), [](auto v) { return v >= 0; }) -
                                  other.begin());
-  const Vector expected = value(groups[g][0]), got = value(other[g]);
+  const Vector expected = value(shared[g].front().vertex), got = value(other[g]);
   r.witness = e.at_vertex(other[g]);
   r.witness->show(expected, got);
 }

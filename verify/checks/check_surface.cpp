@@ -59,7 +59,7 @@ std::vector<Result> check_positions(const Evidence& e) {
     Vector expected = e.reference.position(e.point[at]);
     const Vector got = t.position(at);
     r.witness = e.at_vertex(at);
-    if (const ExactPoint* exact = limit && is_bad(r) ? e.reference.certified().at(e.point[at]) : nullptr) {
+    if (const ExactPoint* exact = limit && is_bad(r) ? e.reference.certified(e.point[at]) : nullptr) {
       expected = exact->position;
       r.witness->expected_digits = exact->position_digits;
     }
@@ -115,7 +115,7 @@ std::vector<Result> check_normals(const Evidence& e) {
     const Vector got = t.normal(vertex);
     Vector expected = e.reference.normal(side);
     angle.witness = e.at_use(e.uses[at]);
-    if (const ExactPoint* exact = is_bad(angle) ? e.reference.certified().at(side) : nullptr) {
+    if (const ExactPoint* exact = is_bad(angle) ? e.reference.certified(side) : nullptr) {
       expected = exact->normal;
       angle.witness->expected_digits = exact->normal_digits;
     }

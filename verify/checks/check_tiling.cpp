@@ -245,11 +245,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
     if (!v.wrong()) continue;
     ++r.bad;
     if (r.witness) continue;
-    r.witness = Witness{};
-    r.witness->face = f;
-    r.witness->triangle = v.triangle;
-    if (v.at.i < 0) continue;
-    r.witness = e.at(e.lattice.place(f, v.at));
+    r.witness = v.at.i < 0 ? Witness{.face = f} : e.at(e.lattice.place(f, v.at));
     r.witness->triangle = v.triangle;
   }
   const auto tell = [&](bool Tiling::*fault, const char* what) {
@@ -267,8 +263,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
   if (off_lattice > 0) say(r, fmt::format("{} vertices off the lattice", off_lattice));
   if (r.bad == 0 && nowhere.wrong()) {
     r.bad = 1;
-    r.witness = Witness{};
-    r.witness->triangle = nowhere.triangle;
+    r.witness = Witness{.triangle = nowhere.triangle};
   }
   if (r.bad > 0) r.status = Status::kFinding;
   return {r};

@@ -183,17 +183,12 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
 // Somewhere the surface is not manifold.
 std::optional<Witness> not_manifold(const Evidence& e, const Looked& looked) {
   const SurfaceReport& r = looked.report;
-  std::int32_t triangle = -1;
-  if (!r.degenerate_witness.empty()) {
-    triangle = r.degenerate_witness.front();
-  } else if (!r.duplicate_witness.empty()) {
-    triangle = r.duplicate_witness.front();
-  } else if (!r.crowded_witness.empty()) {
-    triangle = r.crowded_witness.front().triangle;
-  } else if (!r.clashing_witness.empty()) {
-    triangle = r.clashing_witness.front().triangle;
-  }
-  if (triangle >= 0) {
+  std::vector<std::int32_t> triangles = r.degenerate_witness;
+  triangles.insert(triangles.end(), r.duplicate_witness.begin(), r.duplicate_witness.end());
+  for (const auto* edges : {&r.crowded_witness, &r.clashing_witness})
+    for (const OpenEdge& edge : *edges) triangles.push_back(edge.triangle);
+  if (!triangles.empty()) {
+    const std::int32_t triangle = triangles.front();
     Witness w;
     if (e.tessellation.triangle_ok(triangle)) w = e.at_vertex(e.tessellation.triangles()[triangle][0]);
     w.triangle = triangle;

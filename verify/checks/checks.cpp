@@ -56,7 +56,7 @@ Confirmation confirm(const Evidence& e, std::vector<double>& error,
     }
     end_if_interrupted();
     ++c.looked;
-    const ExactPoint* exact = e.reference.certified().at(side(v));
+    const ExactPoint* exact = e.reference.certified(side(v));
     if (exact != nullptr) error[v] = measure(v, *exact);
     if (error[v] < 0 || error[v] <= bound(v))
       ++c.acquitted;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "data/cut_out.h"
+#include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
@@ -131,12 +132,6 @@ ControlMesh along_an_edge() {
   return joined(data::tetrahedron(), other);
 }
 
-ControlMesh with_an_edge_without_length() {
-  ControlMesh mesh = data::icosahedron();
-  mesh.positions[triangles_of(mesh)[0][1]] = mesh.positions[triangles_of(mesh)[0][0]];
-  return mesh;
-}
-
 std::vector<AuditMesh> meshes() {
   const ControlMesh disc = data::wheel(5, 2);
   const auto& tip = data::tetrahedron().positions;
@@ -152,7 +147,7 @@ std::vector<AuditMesh> meshes() {
       {"flat", flat(data::sheet(3, 3))},
       {"flattened", flat(data::bipyramid(7))},  // a disc covered twice: one surface
       {"disc-twice", joined(disc, disc)},       // two surfaces
-      {"edge-without-length", with_an_edge_without_length()}};
+      {"edge-without-length", data::named_mesh("zero-edge")}};
 }
 
 bool differs_in_bits(const Result& r) {

@@ -95,38 +95,11 @@ Outline::Outline(const Evidence& e) : lattice_(e.lattice) {
   }
   std::sort(steps_.begin(), steps_.end(),
             [](const Step& a, const Step& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
-  find_fans(e);
+  const auto visible = [&](std::int32_t face) { return e.face_depth[face] >= 0; };
+  fan_ = fans_of_corners(
+      lattice_, [&](const Lattice::Edge& edge) { return visible(edge.face[0]) && visible(edge.face[1]); },
+      visible);
   count_loops();
-}
-
-// Corners of faces, joined across every edge whose two faces are visible.
-void Outline::find_fans(const Evidence& e) {
-  std::vector<std::int32_t> parent(lattice_.corner_count());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t c) {
-    while (parent[c] != c) c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  for (const Lattice::Edge& edge : lattice_.edges()) {
-    const std::int32_t f = edge.face[0], g = edge.face[1];
-    if (edge.on_boundary() || e.face_depth[f] < 0 || e.face_depth[g] < 0) continue;
-    const auto join = [&](int k, int m) {
-      parent[root(lattice_.corner_number(f, k))] = root(lattice_.corner_number(g, m));
-    };
-    const int k = edge.corner[0], m = edge.corner[1];  // the two faces run along it in opposite directions
-    join(k, lattice_.domain(g).next(m));
-    join(lattice_.domain(f).next(k), m);
-  }
-  fan_.assign(parent.size(), 0);
-  std::vector<int> fans(e.mesh.positions.size(), 0);  // met so far, of each vertex
-  std::vector<int> number(parent.size(), -1);         // of each root
-  for (std::int32_t f = 0; f < lattice_.face_count(); ++f)
-    for (int k = 0; k < lattice_.domain(f).corners() && e.face_depth[f] >= 0; ++k) {
-      const std::int32_t c = lattice_.corner_number(f, k);
-      int& its = number[root(c)];
-      if (its < 0) its = fans[lattice_.vertex(f, k)]++;
-      fan_[c] = its;
-    }
 }
 
 void Outline::count_loops() {

@@ -64,7 +64,6 @@ class Outline {
   int fan(std::int32_t face, int k) const { return fan_[lattice_.corner_number(face, k)]; }
 
  private:
-  void find_fans(const Evidence& e);
   void count_loops();
 
   const Lattice& lattice_;

@@ -182,26 +182,22 @@ TEST(Sec41_Cone, OnceEnteredItIsHardlyEverLeft) {
     const auto cosines = corner_cosines(scene, kLevels);
     for (const double alpha : {15., 30.}) {
       const double limit = cosine(alpha);
+      const auto is_left_again = [&](const auto& cosine_of_level) {
+        bool entered = false, left = false;
+        for (int l = 0; l <= kLevels; ++l) {
+          const bool inside = cosine_of_level(l) >= limit;
+          left = left || (entered && !inside);
+          entered = entered || inside;
+        }
+        return left;
+      };
       int left_by_face = 0, left_by_vertex = 0;
-      for (int f = 0; f < faces; ++f) {
-        bool entered = false, left = false;
-        for (int l = 0; l <= kLevels; ++l) {
-          const bool inside =
-              std::min({cosines[3 * f][l], cosines[3 * f + 1][l], cosines[3 * f + 2][l]}) >= limit;
-          left = left || (entered && !inside);
-          entered = entered || inside;
-        }
-        left_by_face += left;
-      }
-      for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
-        bool entered = false, left = false;
-        for (int l = 0; l <= kLevels; ++l) {
-          const bool inside = scene.heuristics.cone_cosine(v, l) >= limit;
-          left = left || (entered && !inside);
-          entered = entered || inside;
-        }
-        left_by_vertex += left;
-      }
+      for (int f = 0; f < faces; ++f)
+        left_by_face += is_left_again([&](int l) {
+          return std::min({cosines[3 * f][l], cosines[3 * f + 1][l], cosines[3 * f + 2][l]});
+        });
+      for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v)
+        left_by_vertex += is_left_again([&](int l) { return scene.heuristics.cone_cosine(v, l); });
       const std::string key = fmt::format("_{}_faces_{}_degrees", faces, alpha);
       RecordProperty("left_again_faces" + key, std::to_string(left_by_face));
       RecordProperty("left_again_vertices" + key, std::to_string(left_by_vertex));

@@ -88,6 +88,14 @@ std::vector<Point3> corners(const Scene& scene, std::int32_t f) {
   return result;
 }
 
+std::vector<std::int32_t> half_edges_from(const fast::Adjacency& adjacency, std::int32_t vertex) {
+  std::vector<std::int32_t> all;
+  const std::int32_t first = adjacency.outgoing(vertex);
+  for (std::int32_t h = first; h >= 0 && (all.empty() || h != first); h = adjacency.rotate(h))
+    all.push_back(h);
+  return all;
+}
+
 TEST(Sec41_ProjectSphere, MayMisjudgeTheLimitPatchAndIsNoBoundingVolume) {
   RecordProperty("claim", "C23, C25");
   for (const int faces : {200, 800}) {
@@ -125,18 +133,11 @@ TEST(Sec41_ConvexHull, OfTheNeighbourhoodBoundsTheLimitPatchBecauseNoWeightIsNeg
     const auto vertices = static_cast<std::int32_t>(mesh.positions.size());
     const int faces = adjacency.face_count();
     std::vector<std::set<std::int32_t>> near(faces);
-    for (std::int32_t f = 0; f < faces; ++f) {
-      for (int k = 0; k < 3; ++k) {
-        for (std::int32_t h = adjacency.outgoing(adjacency.corner(f, k)), first = h; h >= 0;) {
-          for (const std::int32_t v :
-               {adjacency.origin(h), adjacency.target(h), adjacency.origin(fast::Adjacency::prev(h))}) {
-            near[f].insert(v);
-          }
-          h = adjacency.rotate(h);
-          if (h == first) break;
-        }
-      }
-    }
+    for (std::int32_t f = 0; f < faces; ++f)
+      for (int k = 0; k < 3; ++k)
+        for (const std::int32_t h : half_edges_from(adjacency, adjacency.corner(f, k)))
+          near[f].insert(
+              {adjacency.origin(h), adjacency.target(h), adjacency.origin(fast::Adjacency::prev(h))});
     constexpr int kDepth = 2;
     const std::size_t points = (4 + 1) * (4 + 2) / 2;
     std::vector<double> sums(static_cast<std::size_t>(faces) * points, 0);
@@ -174,13 +175,9 @@ TEST(Sec41_ConvexHull, IsNotTight) {
   std::vector<double> ratio;
   for (std::int32_t f = 0; f < 200; ++f) {
     std::vector<Point3> neighbourhood = corners(scene, f);
-    for (int k = 0; k < 3; ++k) {
-      for (std::int32_t h = scene.adjacency.outgoing(scene.adjacency.corner(f, k)), first = h; h >= 0;) {
+    for (int k = 0; k < 3; ++k)
+      for (const std::int32_t h : half_edges_from(scene.adjacency, scene.adjacency.corner(f, k)))
         neighbourhood.push_back(fast::to_point(scene.mesh.positions[scene.adjacency.target(h)]));
-        h = scene.adjacency.rotate(h);
-        if (h == first) break;
-      }
-    }
     ratio.push_back(sphere_round_mean(neighbourhood).radius /
                     sphere_round_mean(sample(scene.truth, f, 3).position).radius);
   }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "data/bounding_box.h"
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
@@ -63,10 +64,7 @@ void compare(const std::string& name, const data::ControlMesh& mesh,
   fast::Tessellator<Real> tessellator(mesh, options);
   fast::IndexedMesh<Real> out;
   tessellator.frame(depth, out);
-  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, square = 0;
-  for (const auto& p : mesh.positions)
-    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
-  for (int i = 0; i < 3; ++i) square += (high[i] - low[i]) * (high[i] - low[i]);
+  const double diagonal = data::box_diagonal(mesh);
   const std::size_t step = std::max<std::size_t>(1, out.vertices.size() / samples);
   for (std::size_t v = 0; v < out.vertices.size(); v += step) {
     const auto& at = out.provenance[v];
@@ -74,12 +72,11 @@ void compare(const std::string& name, const data::ControlMesh& mesh,
         truth.evaluate(at.face, reference::Parameter::fraction(at.i, at.denominator),
                        reference::Parameter::fraction(at.j, at.denominator), reference::Order::kFirst);
     const auto& got = out.vertices[v];
-    const double d[3] = {got.position.x - expected.position.x, got.position.y - expected.position.y,
-                         got.position.z - expected.position.z};
-    const double n[3] = {got.normal.x - expected.normal.x, got.normal.y - expected.normal.y,
-                         got.normal.z - expected.normal.z};
-    const double position = std::sqrt((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / square);
-    const double normal = 2 * std::asin(std::min(1., std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2));
+    const auto apart = [](const auto& a, const auto& b) {
+      return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+    };
+    const double position = apart(got.position, expected.position) / diagonal;
+    const double normal = 2 * std::asin(std::min(1., apart(got.normal, expected.normal) / 2));
     if (position > worst.position) worst.position_where = name;
     worst.position = std::max(worst.position, position);
     if (expected.normal_kind != reference::NormalKind::kRegular) continue;

@@ -17,7 +17,6 @@
 #include "verify/cli/screen.h"
 #include "verify/cli/subject_loader.h"
 #include "verify/cli/units.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/files/audit_files.h"
 #include "verify/report/columns.h"
 #include "verify/report/coverage.h"

@@ -15,7 +15,7 @@
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/relations/relations.h"
-#include "verify/report/baseline.h"
+#include "verify/report/known.h"
 #include "verify/row/rows.h"
 
 namespace limitcheck::cli {

@@ -17,7 +17,6 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/screen.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/baseline.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/report/known.h"

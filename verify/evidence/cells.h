@@ -3,14 +3,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "data/scheme.h"
 #include "verify/evidence/audit_case.h"
+#include "verify/evidence/lattice.h"
 
 namespace limitcheck::verify {
 
@@ -60,21 +63,50 @@ inline constexpr std::int32_t kNeedsRelations = 1 << 22;  // not of the subject,
 const std::vector<Feature>& features();
 /// The axis of a feature, and which value on it: the k-th class of sharpness, so many edges, ..
 std::pair<Axis, std::size_t> on_axis(std::size_t feature);
+/// The feature that is value k on an axis.
+std::size_t feature_on(Axis axis, std::size_t k);
 /// What a feature on the axis kVertex says; the largest numbers mean "and more". `own` as on its axis.
+inline constexpr int kInfiniteEdges = 5, kSemiEdges = 3;
 struct VertexTags {
   bool boundary;
   int infinite, semi, own;
+  std::size_t feature() const;
 };
 VertexTags vertex_tags(std::size_t feature);
-/// What a feature on the axis kFan says: the class of the number of faces, and on which side.
+/// What a feature on the axis kFan says: the class of the number of faces, and on which side. Inside there is none of
+/// fewer than three faces.
 struct Fan {
   bool boundary;
   std::size_t size_class;
+  std::optional<std::size_t> feature() const;
 };
 Fan fan(std::size_t feature);
-/// The least number of faces of class k < kSizeClasses, or of corners of class k - 2.
+/// The least number of faces of class k < kSizeClasses, or of corners of class k - 2; and the class of a number.
 inline constexpr std::size_t kSizeClasses = 22;
 int least_of(std::size_t size_class);
+std::size_t size_class_of(std::int64_t count);
+/// What the classes on the axes kIndex and kTags go up to; and the axis kNeighbour: depths that differ by 0 .. 3, culled.
+inline constexpr std::array<std::int64_t, 4> kIndexes{255, 32767, 65535, INT32_MAX},
+    kTagCounts{0, 12, 100, 255};
+inline constexpr int kDepthClasses = 8, kMostDifference = 3, kMostGenus = 3;
+/// Values on the axes kAround and kCreasing.
+inline constexpr std::size_t kBetweenCreases = 4, kWeakBetweenStrong = 5, kUnequal = 2;
+
+/// The faces of a control vertex, its edges (Lattice::edges()), and the tags there.
+struct ControlVertex {
+  bool boundary = false;
+  int infinite = 0, semi = 0;  // edges that are sharp for ever, and for some steps; not those of the boundary
+  float own = 0;
+  std::vector<std::size_t> edges;
+  std::vector<std::int32_t> faces;
+  bool sharp() const { return own > 0 || infinite + semi > 0; }
+};
+/// All of a mesh, and the sharpness of each edge; 0 on the boundary.                                 O(faces)
+struct ControlVertices {
+  explicit ControlVertices(const Lattice& lattice);
+  std::vector<ControlVertex> all;
+  std::vector<float> sharpness;
+};
 
 /// The features of the control vertices that have a displayed face, each list once and ascending. On some axes a vertex has
 /// several: edges of several sharpnesses.                                                         O(faces)

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "data/bounding_box.h"
-#include "verify/evidence/face_depths.h"
+#include "verify/evidence/cells.h"
 #include "verify/row/bounds.h"
 
 namespace limitcheck::verify {
@@ -115,6 +114,11 @@ std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice&
   return ids;
 }
 
+namespace {
+
+// The sides of all vertices: those of the triangles that they are corners of; of a vertex of no triangle, that of the
+// face it names.
+//   point   of each vertex
 std::vector<Use> find_uses(const Tessellation& t, const std::vector<Lattice::Id>& point,
                            const Lattice& lattice, const Sides& sides) {
   std::vector<Use> uses;
@@ -145,8 +149,6 @@ std::vector<Use> find_uses(const Tessellation& t, const std::vector<Lattice::Id>
   return uses;
 }
 
-namespace {
-
 // The kinds of all lattice points of a mesh.                                              O(faces) to make
 class NeighbourhoodCounts {
  public:
@@ -164,50 +166,29 @@ class NeighbourhoodCounts {
 
 NeighbourhoodCounts::NeighbourhoodCounts(const Lattice& lattice) : lattice_(lattice) {
   const data::ControlMesh& mesh = lattice.mesh();
-  const std::size_t vertices = mesh.positions.size();
   const bool loop = lattice.scheme() == data::Scheme::kLoop;
-
-  // Round each vertex.
-  std::vector<int> faces(vertices, 0), sharp_edges(vertices, 0);
-  std::vector<bool> boundary(vertices, false), sharp(vertices, false), quads(vertices, true);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (const std::int32_t v : mesh.faces[f]) {
-      ++faces[v];
-      if (!loop && mesh.faces[f].size() != 4) quads[v] = false;
-    }
-  std::set<std::pair<std::int32_t, std::int32_t>> tagged;
-  for (const data::SharpEdge& s : mesh.sharpness.edges)
-    if (s.sharpness > 0) tagged.emplace(std::min(s.a, s.b), std::max(s.a, s.b));
-  for (const data::SharpVertex& s : mesh.sharpness.vertices) sharp[s.vertex] = s.sharpness > 0;
-  sharp_edge_.resize(lattice.edges().size());
-  for (std::size_t k = 0; k < lattice.edges().size(); ++k) {
-    const Lattice::Edge& e = lattice.edges()[k];
-    sharp_edge_[k] = !e.on_boundary() && tagged.contains({e.a, e.b});
-    for (const std::int32_t v : {e.a, e.b}) {
-      if (e.on_boundary()) boundary[v] = true;
-      if (sharp_edge_[k]) ++sharp_edges[v];
-    }
-  }
-  if (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner)
-    for (std::size_t v = 0; v < vertices; ++v)
-      if (boundary[v] && faces[v] == 1) sharp[v] = true;
-
-  const int regular = loop ? 6 : 4;
-  for (std::size_t v = 0; v < vertices; ++v) {
+  const auto is_regular = [&](std::int32_t face) { return loop || mesh.faces[face].size() == 4; };
+  const ControlVertices vertices(lattice);
+  for (const float s : vertices.sharpness) sharp_edge_.push_back(s > 0);
+  for (const ControlVertex& at : vertices.all) {
+    const bool is_held = at.own > 0 || (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner &&
+                                        at.boundary && at.faces.size() == 1);
+    const int sharp_edges = at.infinite + at.semi;
+    const int count = sharp_edges + (at.boundary && sharp_edges > 0 ? 2 : 0);
     PlaceCount& place = vertex_.emplace_back();
-    const int count = sharp_edges[v] + (boundary[v] && sharp_edges[v] > 0 ? 2 : 0);
-    place.kind = sharp[v] || count > 2 ? PlaceKind::kCorner
-                 : count == 2          ? PlaceKind::kCrease
-                 : count == 1          ? PlaceKind::kDart
-                 : boundary[v]         ? PlaceKind::kBoundaryVertex
-                 : !quads[v]           ? PlaceKind::kPolygonVertex
-                 : faces[v] != regular ? PlaceKind::kExtraordinaryVertex
-                                       : PlaceKind::kRegularVertex;
+    place.kind = is_held || count > 2                                         ? PlaceKind::kCorner
+                 : count == 2                                                 ? PlaceKind::kCrease
+                 : count == 1                                                 ? PlaceKind::kDart
+                 : at.boundary                                                ? PlaceKind::kBoundaryVertex
+                 : !std::all_of(at.faces.begin(), at.faces.end(), is_regular) ? PlaceKind::kPolygonVertex
+                 : at.faces.size() != (loop ? 6U : 4U) ? PlaceKind::kExtraordinaryVertex
+                                                       : PlaceKind::kRegularVertex;
     if (place.kind == PlaceKind::kBoundaryVertex || place.kind == PlaceKind::kExtraordinaryVertex)
-      place.faces = faces[v];
+      place.faces = static_cast<std::int32_t>(at.faces.size());
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    PlaceKind kind = !loop && mesh.faces[f].size() != 4 ? PlaceKind::kIrregularFace : PlaceKind::kRegularFace;
+    PlaceKind kind =
+        is_regular(static_cast<std::int32_t>(f)) ? PlaceKind::kRegularFace : PlaceKind::kIrregularFace;
     for (const std::int32_t v : mesh.faces[f]) {
       const PlaceKind at = vertex_[v].kind;
       kind = std::max(kind, at >= PlaceKind::kDart             ? PlaceKind::kSharpFace

@@ -70,12 +70,6 @@ std::int64_t not_finite(const Tessellation& tessellation);
 
 /// Ids of all vertices of a tessellation, in parallel.
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice);
-/// The sides of all vertices: those of the triangles that they are corners of; of a vertex of no triangle,
-/// that of the face it names.
-///   point   of each vertex
-std::vector<Use> find_uses(const Tessellation& tessellation, const std::vector<Lattice::Id>& point,
-                           const Lattice& lattice, const Sides& sides);
-
 /// Fills in `places` of a row that is_bad; does nothing for others.
 ///   count   how many points were looked at
 ///   id      of each; kNone is skipped
@@ -88,7 +82,7 @@ void count_places(Result& row, const Lattice& lattice, std::size_t count,
 ///   depth   of faces that have none of their own
 std::vector<std::int32_t> asked_depths(const AuditMesh& mesh, int depth);
 
-/// Asks for what `mesh.depths` asks for beforehand (face_depths.h), and throws the answers away. Throws as
+/// Asks for what `mesh.depths` asks for beforehand (evidence/audit_case.h), and throws the answers away. Throws as
 /// Session::tessellate does.
 ///   deepest   depth that a face has in the request to come
 void warm_up(Session& session, const AuditMesh& mesh, int deepest, int threads);

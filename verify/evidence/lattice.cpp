@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "data/error.h"
 
@@ -13,6 +15,13 @@ namespace limitcheck::verify {
 namespace {
 
 constexpr int kManyCorners = 16;  // of a face: then its corners are searched for, not gone through
+
+std::set<std::pair<std::int32_t, std::int32_t>> lasting_edges(const data::ControlMesh& mesh) {
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (const data::SharpEdge& e : mesh.sharpness.edges)
+    if (e.sharpness >= data::kInfiniteSharpness) edges.insert(std::minmax(e.a, e.b));
+  return edges;
+}
 
 }  // namespace
 
@@ -156,6 +165,91 @@ Place Lattice::place(std::int32_t face, Coordinates at) const {
                      divisor = std::gcd(std::gcd(at.i, at.j), whole);
   const auto number = [&](std::int64_t k) { return static_cast<std::uint32_t>(k / divisor); };
   return {face, number(at.i), number(at.j), number(whole), at.part};
+}
+
+std::vector<std::int32_t> fans_of_corners(const Lattice& lattice,
+                                          const std::function<bool(const Lattice::Edge&)>& joins,
+                                          const std::function<bool(std::int32_t)>& counts) {
+  // Sets of corners that grow together.
+  std::vector<std::int32_t> parent(lattice.corner_count());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::int32_t c) {
+    while (parent[c] != c) c = parent[c] = parent[parent[c]];
+    return c;
+  };
+  for (const Lattice::Edge& edge : lattice.edges()) {
+    if (edge.on_boundary() || !joins(edge)) continue;
+    for (int s = 0; s < 2; ++s) {  // the two faces run along it in opposite directions
+      const std::int32_t f = edge.face[s], g = edge.face[1 - s];
+      parent[root(lattice.corner_number(f, edge.corner[s]))] =
+          root(lattice.corner_number(g, lattice.domain(g).next(edge.corner[1 - s])));
+    }
+  }
+  std::vector<std::int32_t> fan(parent.size(), 0), number(parent.size(), -1);  // number: of each root
+  std::vector<std::int32_t> met(lattice.mesh().positions.size(), 0);           // fans of each vertex
+  for (std::int32_t f = 0; f < lattice.face_count(); ++f)
+    for (int k = 0; k < lattice.domain(f).corners() && counts(f); ++k) {
+      const std::int32_t c = lattice.corner_number(f, k);
+      std::int32_t& its = number[root(c)];
+      if (its < 0) its = met[lattice.vertex(f, k)]++;
+      fan[c] = its;
+    }
+  return fan;
+}
+
+Sides::Sides(const Lattice& lattice) : lattice_(lattice) {
+  const auto lasting = lasting_edges(lattice.mesh());
+  if (lasting.empty()) return;
+
+  // Around a vertex, faces are of one sector that meet in an edge which does not stay sharp.
+  const auto stays_sharp = [&](const Lattice::Edge& e) { return lasting.contains({e.a, e.b}); };
+  sector_ = fans_of_corners(
+      lattice, [&](const Lattice::Edge& e) { return !stays_sharp(e); }, [](std::int32_t) { return true; });
+  of_edge_.assign(lattice.edges().size(), -1);
+  for (std::size_t k = 0; k < lattice.edges().size(); ++k) {
+    const Lattice::Edge& e = lattice.edges()[k];
+    if (e.on_boundary() || !stays_sharp(e) || lattice.n() == 1) continue;
+    of_edge_[k] = size();
+    for (Lattice::Id i = 0; i < lattice.n() - 1; ++i)
+      others_.push_back({lattice.first_on_edge(k) + i, e.face[1]});
+  }
+
+  // The first face of each sector after that which has the id of the vertex.
+  std::vector<std::vector<std::int32_t>> first_face(lattice.mesh().positions.size());
+  for (std::int32_t f = 0; f < lattice.face_count(); ++f)
+    for (int k = 0; k < lattice.domain(f).corners(); ++k) {
+      auto& met = first_face[lattice.vertex(f, k)];
+      if (sector_[lattice.corner_number(f, k)] > std::ssize(met)) met.push_back(f);
+    }
+  of_vertex_.assign(first_face.size(), -1);
+  for (std::size_t v = 0; v < first_face.size(); ++v) {
+    if (first_face[v].empty()) continue;
+    of_vertex_[v] = size();
+    for (const std::int32_t f : first_face[v]) others_.push_back({static_cast<Lattice::Id>(v), f});
+  }
+}
+
+Sides::Id Sides::first_other(Lattice::Id point) const {
+  if (none() || !lattice_.is_shared(point)) return -1;
+  if (lattice_.is_vertex(point)) return of_vertex_[point];
+  const std::size_t edge = lattice_.edge_of(point);
+  return of_edge_[edge] < 0 ? -1 : of_edge_[edge] + point - lattice_.first_on_edge(edge);
+}
+
+Sides::Id Sides::of(Lattice::Id point, std::int32_t face) const {
+  const Id first = first_other(point);
+  if (first < 0) return point;
+  if (!lattice_.is_vertex(point))
+    return lattice_.edges()[lattice_.edge_of(point)].face[1] == face ? first : point;
+  const auto k = lattice_.corner_of(face, point);
+  const std::int32_t sector = k ? sector_[lattice_.corner_number(face, *k)] : 0;
+  return sector == 0 ? point : first + sector - 1;
+}
+
+Place Sides::place(Id side) const {
+  if (side < lattice_.size()) return lattice_.place(side);
+  const Other& other = others_[side - lattice_.size()];
+  return lattice_.place(other.face, *lattice_.in_face(other.point, other.face));
 }
 
 std::string fraction(std::uint64_t numerator, std::uint64_t denominator) {

@@ -52,18 +52,7 @@ std::array<double, 2> beside_corner(const Lattice& lattice, const Place& corner,
   return {static_cast<double>(p.i + q.i) / whole, static_cast<double>(p.j + q.j) / whole};
 }
 
-int steps_of(const data::ControlMesh& mesh, int depth) {
-  float most = 0;
-  const auto look = [&](const auto& tags) {
-    for (const auto& tag : tags)
-      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
-  };
-  look(mesh.sharpness.edges);
-  look(mesh.sharpness.vertices);
-  return std::max(depth, static_cast<int>(std::ceil(most)));
-}
-
-// See terms_of().
+// See terms_at(): of each face.
 std::vector<std::int64_t> terms(const data::Faces& faces, std::size_t vertices) {
   std::vector<std::int64_t> at(vertices, 1), most(faces.size(), 0);
   for (std::size_t f = 0; f < faces.size(); ++f)
@@ -76,31 +65,40 @@ std::vector<std::int64_t> terms(const data::Faces& faces, std::size_t vertices) 
 
 }  // namespace
 
-struct CertifiedSurface::State {
-  std::mutex mutex;
-  std::optional<reference::CertifiedEvaluator> evaluator;
+int steps_of(const data::Sharpness& tags) {
+  float most = 0;
+  const auto look = [&](const auto& list) {
+    for (const auto& tag : list)
+      if (tag.sharpness < data::kInfiniteSharpness) most = std::max(most, tag.sharpness);
+  };
+  look(tags.edges);
+  look(tags.vertices);
+  return static_cast<int>(std::ceil(most));
+}
+
+// Each made when first needed: for limit points, for refined ones, and for findings.
+struct ReferenceSurface::Evaluators {
+  std::optional<reference::Surface> limit;
+  std::optional<reference::RefinedSurface> refined;
+  std::mutex mutex;  // of what follows
+  std::optional<reference::CertifiedEvaluator> certified;
   std::unordered_map<Sides::Id, std::optional<ExactPoint>> kept;  // empty: it cannot say
 };
 
-CertifiedSurface::CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights)
-    : lattice_(lattice), sides_(sides), weights_(weights), state_(std::make_unique<State>()) {}
-CertifiedSurface::~CertifiedSurface() = default;
-
-const ExactPoint* CertifiedSurface::at(Sides::Id side) const {
-  const std::scoped_lock lock(state_->mutex);
-  const auto [place, is_new] = state_->kept.try_emplace(side);
+const ExactPoint* ReferenceSurface::certified(Sides::Id side) const {
+  const std::scoped_lock lock(evaluators_->mutex);
+  const auto [place, is_new] = evaluators_->kept.try_emplace(side);
   std::optional<ExactPoint>& point = place->second;
   if (is_new) try {
-      if (!state_->evaluator) {
-        if (lattice_.scheme() == data::Scheme::kLoop)
-          state_->evaluator.emplace(lattice_.mesh(), weights_);
-        else
-          state_->evaluator.emplace(lattice_.mesh(), lattice_.scheme());
-      }
+      auto& evaluator = evaluators_->certified;
+      if (!evaluator && lattice_.scheme() == data::Scheme::kLoop)
+        evaluator.emplace(mesh_, weights_);
+      else if (!evaluator)
+        evaluator.emplace(mesh_, lattice_.scheme());
       const Place p = sides_.place(side);
       const auto exact =
-          state_->evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
-                                      reference::Parameter::fraction(p.j, p.denominator), kDigits);
+          evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                              reference::Parameter::fraction(p.j, p.denominator), kDigits);
       point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
                exact.normal_kind == reference::NormalKind::kRegular};
     } catch (const std::exception&) {  // a neighbourhood that it does not take: the word in double stands
@@ -108,23 +106,16 @@ const ExactPoint* CertifiedSurface::at(Sides::Id side) const {
   return point ? &*point : nullptr;
 }
 
-// The exact evaluator for limit points; for refined points the refined mesh, made when first needed.
-struct ReferenceSurface::Evaluator {
-  std::unique_ptr<reference::Surface> limit;
-  std::unique_ptr<reference::RefinedSurface> refined;
-};
-
 ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth,
                                    lc_points points, reference::Weights weights)
     : mesh_(mesh),
       lattice_(mesh_, scheme, depth),
       sides_(lattice_),
-      steps_(points == LC_POINTS_LIMIT ? steps_of(mesh, depth) : depth),
+      steps_(points == LC_POINTS_LIMIT ? std::max(depth, steps_of(mesh.sharpness)) : depth),
       points_(points),
       weights_(weights),
       terms_(terms(mesh_.faces, mesh_.positions.size())),
-      evaluator_(std::make_unique<Evaluator>()),
-      certified_(lattice_, sides_, weights) {
+      evaluators_(std::make_unique<Evaluators>()) {
   const auto size = static_cast<std::size_t>(lattice_.size());
   const auto sides = static_cast<std::size_t>(sides_.size());
   position_.resize(size);
@@ -141,7 +132,7 @@ void ReferenceSurface::evaluate(Sides::Id side) {
   const Lattice::Id point = sides_.point(side);
   const Place p = sides_.place(side);
   // Dyadic fractions are exact doubles; thirds are not.
-  const auto& limit = *evaluator_->limit;
+  const auto& limit = *evaluators_->limit;
   const auto at =
       std::has_single_bit(p.denominator)
           ? limit.evaluate(p.face, p.corner, static_cast<double>(p.i) / p.denominator,
@@ -177,8 +168,7 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
   if (wanted.empty()) return;
 
   if (limit) {
-    if (!evaluator_->limit)
-      evaluator_->limit = std::make_unique<reference::Surface>(mesh_, lattice_.scheme(), weights_);
+    if (!evaluators_->limit) evaluators_->limit.emplace(mesh_, lattice_.scheme(), weights_);
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
       end_if_interrupted();
       evaluate(wanted[k]);
@@ -186,9 +176,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
     return;
   }
 
-  if (!evaluator_->refined)
-    evaluator_->refined =
-        std::make_unique<reference::RefinedSurface>(mesh_, lattice_.scheme(), lattice_.depth(), weights_);
+  if (!evaluators_->refined)
+    evaluators_->refined.emplace(mesh_, lattice_.scheme(), lattice_.depth(), weights_);
   for (const Lattice::Id id : wanted) {
     state_[id] = State::kNoNormal;
     if (lattice_.is_bare_centre(id)) continue;  // which is no vertex of a refined mesh
@@ -198,8 +187,8 @@ void ReferenceSurface::prepare(std::span<const Lattice::Id> ids) {
     }
     const Place p = lattice_.place(id);
     const auto finer = lattice_.domain(p.face).denominator(lattice_.n()) / p.denominator;
-    position_[id] = vector_of(evaluator_->refined->position(p.face, p.corner, static_cast<int>(p.i * finer),
-                                                            static_cast<int>(p.j * finer)));
+    position_[id] = vector_of(evaluators_->refined->position(p.face, p.corner, static_cast<int>(p.i * finer),
+                                                             static_cast<int>(p.j * finer)));
   }
 }
 

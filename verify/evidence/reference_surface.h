@@ -12,7 +12,6 @@
 #include "data/control_mesh.h"
 #include "reference/loop/masks.h"
 #include "verify/evidence/lattice.h"
-#include "verify/evidence/sides.h"
 #include "verify/evidence/vector.h"
 #include "verify/row/bounds.h"
 
@@ -25,25 +24,8 @@ struct ExactPoint {
   bool has_normal;  // false: the tangents may be parallel, or there is no tangent plane (D5, D12)
 };
 
-/// The limit surface of the lattice's control mesh (reference/surface/certified.h).
-class CertifiedSurface {
- public:
-  /// `lattice` and `sides` outlive this. Nothing is computed yet: an audit without a finding never needs any
-  /// of it.
-  CertifiedSurface(const Lattice& lattice, const Sides& sides, reference::Weights weights);
-  ~CertifiedSurface();
-
-  /// A side of a point; nullptr where the evaluator cannot certify it. It takes some milliseconds and is
-  /// kept. Any number of threads may ask.
-  const ExactPoint* at(Sides::Id side) const;
-
- private:
-  struct State;
-  const Lattice& lattice_;
-  const Sides& sides_;
-  reference::Weights weights_;
-  std::unique_ptr<State> state_;
-};
+/// After how many steps no tag is left but those that stay sharp.
+int steps_of(const data::Sharpness& tags);
 
 /// The limit surface or the refined mesh at lattice points, evaluated when first asked for and kept, so that
 /// several subjects share it.
@@ -66,9 +48,8 @@ class ReferenceSurface {
   const Sides& sides() const { return sides_; }
   /// How many steps a subject takes at least: the depth, or until semi-sharp edges are smooth.
   int steps() const { return steps_; }
-  /// How many points the longest sum of a face has: the mask at the corner with most points in its faces, the
-  /// corner included. The surface over the face depends on no other rings. (bounds.h)
-  std::int64_t terms_of(std::int32_t face) const { return terms_.empty() ? kOrdinaryTerms : terms_[face]; }
+  /// How many points the longest sum of a place has: of its face the mask at the corner with most points in its
+  /// faces, the corner included. The surface over the face depends on no other rings. (bounds.h)
   std::int64_t terms_at(Lattice::Id id) const {
     return terms_.empty() || id == Lattice::kNone ? kOrdinaryTerms : terms_[lattice_.place(id).face];
   }
@@ -93,14 +74,16 @@ class ReferenceSurface {
   /// and in any case where the derivatives vanish: a control vertex that is extraordinary need not have any.
   double normal_condition(Sides::Id id) const { return condition_[id]; }
 
-  /// The same surface in certified arithmetic.
-  const CertifiedSurface& certified() const { return certified_; }
+  /// A side of a point in certified arithmetic (reference/surface/certified.h); nullptr where that cannot certify it. It
+  /// takes some milliseconds and is kept: an audit without a finding never needs any of it. Any number of threads
+  /// may ask.
+  const ExactPoint* certified(Sides::Id side) const;
 
  private:
   void evaluate(Sides::Id side);
 
   enum class State : std::uint8_t { kMissing, kWanted, kRegular, kNoNormal };
-  struct Evaluator;
+  struct Evaluators;
 
   data::ControlMesh mesh_;
   Lattice lattice_;
@@ -109,8 +92,7 @@ class ReferenceSurface {
   lc_points points_;
   reference::Weights weights_;
   std::vector<std::int64_t> terms_;  // of each face; empty: no more than kOrdinaryTerms
-  std::unique_ptr<Evaluator> evaluator_;
-  CertifiedSurface certified_;
+  std::unique_ptr<Evaluators> evaluators_;
   std::vector<Vector> position_, normal_;
   std::vector<double> condition_;
   std::vector<State> state_;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "verify/evidence/evidence.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"
+#include "verify/subject/adapter.h"
 
 namespace limitcheck::verify::test {
 
@@ -28,59 +28,32 @@ namespace detail {
 
 inline const Script* script = nullptr;  // of the session being made
 
-template <class T>
-T* copy(const lc_request* request, const std::vector<T>& from) {
-  auto* to = static_cast<T*>(request->allocate(request->host, from.size() * sizeof(T)));
-  if (to != nullptr && !from.empty()) std::memcpy(to, from.data(), from.size() * sizeof(T));
-  return to;
-}
-
-inline void* vectors(const lc_request* request, const std::vector<Vector>& from) {
-  if (from.empty()) return nullptr;
-  if (script->precision == LC_FLOAT64) return copy(request, from);
-  std::vector<std::array<float, 3>> narrow;
-  for (const Vector& p : from)
-    narrow.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-  return copy(request, narrow);
-}
+class Scripting {
+ public:
+  static constexpr std::int32_t kSharp = 2 * LC_SHARP_SMOOTH_TRIANGLES - 1;
+  static lc_capabilities capabilities(Options&, lc_scheme) {
+    lc_capabilities c{};
+    c.precision = script->precision;
+    c.points = script->kind;
+    c.max_depth = 5;
+    c.per_face_depth = 1;
+    c.normals = script->normals.empty() ? 0 : 1;
+    return c;
+  }
+  Scripting(const lc_mesh&, Options&) {}
+  static void tessellate(const lc_request& request, lc_tessellation& out) {
+    DeliveredArrays all{script->positions, script->normals, script->points, {},
+                        script->triangles, script->faces};
+    for (double v = 0; all.positions.size() < all.provenance.size(); ++v) all.positions.push_back({v, v, v});
+    if (script->precision == LC_FLOAT32)
+      all.hand_over<float>(request, out, !all.normals.empty(), false);
+    else
+      all.hand_over<double>(request, out, !all.normals.empty(), false);
+  }
+};
 
 inline const lc_subject* subject() {
-  static const lc_subject table = [] {
-    lc_subject s{};
-    s.abi = LC_SUBJECT_ABI;
-    s.name = "scripted";
-    s.description = "what the test says";
-    s.capabilities = [](const char*, lc_capabilities* out, const char**) {
-      *out = {};
-      out->precision = script->precision;
-      out->points = script->kind;
-      out->max_depth = 5;
-      out->per_face_depth = 1;
-      out->normals = script->normals.empty() ? 0 : 1;
-      out->schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
-      out->sharp = 2 * LC_SHARP_SMOOTH_TRIANGLES - 1;
-      return LC_OK;
-    };
-    s.create = [](const lc_mesh*, const char*, void** instance, const char**) {
-      *instance = nullptr;
-      return LC_OK;
-    };
-    s.tessellate = [](void*, const lc_request* request, lc_tessellation* out, const char**) {
-      out->vertex_count = static_cast<std::int64_t>(script->points.size());
-      out->triangle_count = static_cast<std::int64_t>(script->triangles.size());
-      std::vector<Vector> positions = script->positions;
-      for (double v = 0; positions.size() < script->points.size(); ++v) positions.push_back({v, v, v});
-      out->positions = vectors(request, positions);
-      out->normals = vectors(request, script->normals);
-      out->provenance = copy(request, script->points);
-      out->triangles = reinterpret_cast<std::uint32_t*>(copy(request, script->triangles));
-      out->triangle_face = copy(request, script->faces);
-      return LC_OK;
-    };
-    s.release = [](void*, lc_tessellation*) {};
-    s.destroy = [](void*) {};
-    return s;
-  }();
+  static const lc_subject table = make_subject<Scripting>("scripted", "what the test says");
   return &table;
 }
 
@@ -96,12 +69,10 @@ class Scripted {
     tessellation_ = std::make_unique<Tessellation>(session_->tessellate(depth_));
     const int deepest = *std::max_element(depth_.begin(), depth_.end());
     reference_ = std::make_unique<ReferenceSurface>(session_->mesh(), deepest, script_.kind);
-    std::vector<Lattice::Id> points = locate(*tessellation_, reference_->lattice());
-    reference_->prepare(points);
-    std::vector<Use> uses = find_uses(*tessellation_, points, reference_->lattice(), reference_->sides());
-    evidence_.reset(new Evidence{"scripted", "mesh", session_->capabilities(), session_->mesh(), depth_,
-                                 *tessellation_, reference_->lattice(), *reference_, std::move(points),
-                                 std::move(uses), 1, 1});
+    evidence_.reset(new Evidence(gather({detail::subject(), ""}, {"mesh", mesh}, *session_, session_->mesh(),
+                                        depth_, *tessellation_, *reference_)));
+    reference_->prepare(evidence_->point);
+    evidence_->diagonal = evidence_->magnitude = 1;
   }
   const Evidence& operator*() const { return *evidence_; }
   const Evidence* operator->() const { return evidence_.get(); }

@@ -11,7 +11,7 @@
 #include "verify/files/checks/file_evidence.h"
 #include "verify/files/checks/fit.h"
 #include "verify/row/result.h"
-#include "verify/row/vertex_errors.h"
+#include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 

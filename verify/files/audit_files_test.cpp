@@ -17,7 +17,7 @@
 #include "verify/files/checks/diagnosis.h"
 #include "verify/files/checks/hausdorff.h"
 #include "verify/files/test_files.h"
-#include "verify/recognise/guessed_rule.h"
+#include "verify/recognise/recognise.h"
 #include "verify/row/rows.h"
 
 namespace limitcheck::verify {

@@ -9,7 +9,7 @@
 #include "data/test_support/assertions.h"
 #include "verify/files/test_files.h"
 #include "verify/projection/test_meshes.h"
-#include "verify/recognise/guessed_rule.h"
+#include "verify/recognise/recognise.h"
 
 namespace limitcheck::verify {
 namespace {

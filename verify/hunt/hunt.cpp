@@ -8,7 +8,6 @@
 #include "data/bounding_box.h"
 #include "verify/audit/shrink.h"
 #include "verify/causes/causes.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"

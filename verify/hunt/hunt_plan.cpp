@@ -18,7 +18,6 @@
 #include "data/splitmix64.h"
 #include "data/validate.h"
 #include "verify/evidence/cells.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/subject/lent_mesh.h"
 

@@ -12,7 +12,6 @@
 #include "data/io/read.h"
 #include "data/validate.h"
 #include "verify/evidence/cells.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/hunt/hunt.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"

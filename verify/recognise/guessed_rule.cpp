@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/recognise/guessed_rule.h"
+#include "verify/recognise/recognise.h"
 
 #include <fmt/core.h>
 
@@ -86,32 +86,20 @@ data::ControlMesh without_tags(const data::ControlMesh& mesh) {
   return {mesh.positions, mesh.faces, {}, mesh.holes};
 }
 
-std::string_view word(GuessedRule scheme) {
-  constexpr std::string_view kWords[] = {"loop", "warren", "linear", "catmull-clark"};
-  return kWords[static_cast<std::size_t>(scheme)];
-}
-
-std::string describe(GuessedRule scheme, int steps, bool limit) {
-  const char* rule = "";
-  switch (scheme) {
-    case GuessedRule::kLoop:
-      rule = "Loop's rule";
-      break;
-    case GuessedRule::kWarren:
-      rule = "Loop's rule with Warren's simplified weights";
-      break;
-    case GuessedRule::kLinear:
-      rule = "linear interpolation";
-      break;
-    case GuessedRule::kCatmullClark:
-      rule = "Catmull and Clark's rule";
-      break;
-  }
-  return fmt::format("the {} {} ({} step{})",
-                     scheme == GuessedRule::kLinear ? "flat control mesh itself, by"
-                     : limit                        ? "limit points of"
-                                                    : "vertices of the control mesh refined by",
-                     rule, steps, steps == 1 ? "" : "s");
+Recognised recognised(GuessedRule scheme, int steps, bool limit, bool tags) {
+  struct Words {
+    const char *word, *rule;
+  };
+  constexpr Words kWords[] = {{"loop", "Loop's rule"},  // in the order of GuessedRule
+                              {"warren", "Loop's rule with Warren's simplified weights"},
+                              {"linear", "linear interpolation"},
+                              {"catmull-clark", "Catmull and Clark's rule"}};
+  const auto& [word, rule] = kWords[static_cast<std::size_t>(scheme)];
+  const char* points = scheme == GuessedRule::kLinear ? "flat control mesh itself, by"
+                       : limit                        ? "limit points of"
+                                                      : "vertices of the control mesh refined by";
+  return {fmt::format("the {} {} ({} step{})", points, rule, steps, steps == 1 ? "" : "s"), word, steps,
+          limit, tags};
 }
 
 void say_recognised(Result& row, const Recognised& recognised, const Statistics& distances, double rounding,

@@ -13,8 +13,6 @@
 #include "data/cut_out.h"
 #include "reference/mesh/support.h"
 #include "verify/evidence/faces_around.h"
-#include "verify/recognise/guessed_rule.h"
-#include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -176,13 +174,11 @@ std::optional<Result> origin_of_points(const Evidence& e, Result& positions, Kep
     const Likeness like = likeness(e, distance, bound);
     if (!like.convincing() || !(like.misfit() < least)) continue;
     least = like.misfit();
-    const Recognised recognised{describe(g.scheme, steps, g.limit), std::string(word(g.scheme)), steps,
-                                g.limit, g.tags};
-    text = fmt::format(
-        "looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}{}", recognised.what,
-        like.points() - like.off(), like.points(), positions.worst.value_or(0),
-        e.capabilities.points == LC_POINTS_LIMIT ? "the limit surface" : "the refined mesh", g.remark);
-    positions.recognised = recognised;
+    const Recognised& known = positions.recognised.emplace(recognised(g.scheme, steps, g.limit, g.tags));
+    text = fmt::format("looks like {}: {} of {} vertices are those, and up to {:.2g} diagonals off {}{}",
+                       known.what, like.points() - like.off(), like.points(), positions.worst.value_or(0),
+                       e.capabilities.points == LC_POINTS_LIMIT ? "the limit surface" : "the refined mesh",
+                       g.remark);
     row = e.result("recognised");
     const Statistics statistics = summarise(distance, bound);
     std::optional<Witness> worst;
@@ -191,7 +187,7 @@ std::optional<Result> origin_of_points(const Evidence& e, Result& positions, Kep
       worst = e.at_vertex(v);
       worst->show(expected, got);
     }
-    say_recognised(*row, recognised, statistics, bound, worst);
+    say_recognised(*row, known, statistics, bound, worst);
   }
   if (!text.empty()) positions.message += (positions.message.empty() ? "" : "; ") + text;
   return row;

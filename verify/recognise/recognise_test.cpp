@@ -17,7 +17,6 @@
 #include "verify/evidence/lattice.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/peers/test_opensubdiv.h"
-#include "verify/recognise/guessed_rule.h"
 #include "verify/recognise/recognise.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/adapter.h"

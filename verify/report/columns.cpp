@@ -10,16 +10,20 @@
 namespace limitcheck::verify {
 namespace {
 
-// Characters of UTF-8 that are seen.
-std::size_t width_of(std::string_view text) {
-  std::size_t width = 0;
+// For each byte, and for the end, how many characters are seen before it: of UTF-8, without escape sequences.
+std::vector<std::size_t> columns_of(std::string_view text) {
+  std::vector<std::size_t> columns{0};
   bool escape = false;
   for (const char c : text) {
     if (c == '\033') escape = true;
-    if (!escape && (static_cast<unsigned char>(c) & 0xC0U) != 0x80U) ++width;
-    if (escape && c == 'm') escape = false;
+    const bool is_seen = !escape && (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    columns.push_back(columns.back() + (is_seen ? 1 : 0));
+    if (c == 'm') escape = false;
   }
-  return width;
+  return columns;
+}
+std::size_t width_of(std::string_view text) {
+  return columns_of(text).back();
 }
 
 // Where what is carried over of a line begins.
@@ -35,23 +39,16 @@ std::size_t hang_of(const std::string& line, std::size_t width) {
 
 void add_wrapped(std::string& out, std::string line, std::size_t width, std::size_t blanks) {
   const std::string hang(blanks, ' ');
-  while (width_of(line) > width) {
-    std::size_t at = 0, seen = 0, blank = 0, comma = 0;
+  for (std::vector<std::size_t> column = columns_of(line); column.back() > width; column = columns_of(line)) {
+    std::size_t blank = 0, comma = 0;
     const std::size_t begin = std::max(line.find_first_not_of(' '), hang.size());
-    bool escape = false;
-    for (; at < line.size() && seen <= width; ++at) {
-      if (line[at] == '\033') escape = true;
-      if (!escape && (static_cast<unsigned char>(line[at]) & 0xC0U) != 0x80U) {
-        if (line[at] == ' ' && at > begin) blank = at;
-        if (line[at] == ',' && at > begin && seen + 1 < width) comma = at + 1;
-        ++seen;
-      }
-      if (line[at] == 'm') escape = false;
+    for (std::size_t at = begin + 1; at < line.size() && column[at] <= width; ++at) {
+      if (line[at] == ' ') blank = at;
+      if (line[at] == ',' && column[at] + 1 < width) comma = at + 1;
     }
     if (blank == 0) blank = comma > 0 ? comma : line.find(' ', begin);
-    if (blank == std::string::npos) break;
     const std::size_t next = line.find_first_not_of(' ', blank);
-    if (next == std::string::npos) break;
+    if (blank == std::string::npos || next == std::string::npos) break;
     out += line.substr(0, line.find_last_not_of(' ', blank - 1) + 1) + "\n";
     line.replace(0, next, hang);
   }
@@ -104,10 +101,6 @@ std::size_t total(const std::vector<Column>& columns, const std::vector<std::siz
   for (const std::size_t k : shown) sum += widths[k] + (k == shown.front() ? 0 : columns[k].gap);
   return sum;
 }
-
-}  // namespace
-
-namespace {
 
 /// "  limitcheck audit ..." and not "limitcheck 0.2.0: depth 4 on ...".
 bool is_command(const std::string& line) {

@@ -14,7 +14,7 @@
 #include "verify/evidence/audit_case.h"
 #include "verify/report/columns.h"
 #include "verify/row/result.h"
-#include "verify/row/vertex_errors.h"
+#include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 

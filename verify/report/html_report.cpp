@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: MIT
-
+// The report as a page: overview, causes, histograms, and triangles round the witnesses.
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
 #include <functional>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "verify/evidence/evidence.h"
 #include "verify/report/forms.h"
+#include "verify/row/bounds.h"
 #include "verify/row/commands.h"
 #include "verify/row/statistics.h"
+#include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -128,6 +138,153 @@ std::string to_html(const Report& report, const std::vector<Cause>& causes,
   put(page, "%DATA%", text);
   put(page, "%PLAIN%", plain(data));
   return page;
+}
+
+// What the page shows in three dimensions: the triangles round a witness, coloured by their errors, where they lie on
+// the control mesh.
+
+namespace {
+
+// 0 within the bound, else how many powers of ten beyond it, from 1 on; 255 not finite.
+std::uint8_t value_of(double error, double bound) {
+  if (!std::isfinite(error)) return 255;
+  if (error <= bound) return 0;
+  return static_cast<std::uint8_t>(std::clamp(1 + std::log10(error / bound), 1.0, 20.0));
+}
+
+void append(std::vector<float>& to, const Vector& p) {
+  for (const double x : p) to.push_back(static_cast<float>(x));
+}
+
+/// Both ends of each edge of the control mesh; nothing where so many would hide what they are to show.
+std::vector<float> edges_of(const data::ControlMesh& mesh) {
+  constexpr std::size_t kMost = 8000;
+  std::set<std::pair<std::int32_t, std::int32_t>> edges;
+  for (std::size_t f = 0; f < mesh.faces.size() && edges.size() <= kMost; ++f) {
+    const auto face = mesh.faces[f];
+    for (std::size_t k = 0; k < face.size(); ++k)
+      edges.insert(std::minmax(face[k], face[(k + 1) % face.size()]));
+  }
+  std::vector<float> ends;
+  if (edges.size() > kMost) return ends;
+  for (const auto& [a, b] : edges) append(ends, mesh.positions[a]), append(ends, mesh.positions[b]);
+  return ends;
+}
+
+/// A tessellation, and where its witness is.
+struct Shown {
+  std::vector<Vector> positions;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // of which all may be looked at
+  Vector middle;
+
+  // Keeps the triangles nearest to the middle, at most kMostTriangles.
+  void keep_nearest();
+  ErrorShape shape(const data::ControlMesh& control,
+                   const std::function<std::uint8_t(std::uint32_t)>& value) const;
+};
+
+void Shown::keep_nearest() {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (const Vector& p = positions[triangles[k][0]]; is_finite(p))
+      order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), kMostTriangles));
+  std::vector<std::array<std::uint32_t, 3>> kept;
+  for (const auto& [distance, k] : order) kept.push_back(triangles[k]);
+  triangles = std::move(kept);
+}
+
+ErrorShape Shown::shape(const data::ControlMesh& control,
+                        const std::function<std::uint8_t(std::uint32_t)>& value) const {
+  ErrorShape shape;
+  shape.control = edges_of(control);
+  std::map<std::uint32_t, std::uint32_t> number;
+  for (const auto& corners : triangles)
+    for (const std::uint32_t v : corners) {
+      const auto [at, is_new] = number.emplace(v, static_cast<std::uint32_t>(shape.values.size()));
+      shape.triangles.push_back(at->second);
+      if (!is_new) continue;
+      append(shape.positions, positions[v]);
+      shape.values.push_back(value(v));
+    }
+  for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
+  return shape;
+}
+
+std::string note_of(bool normals, double bound, std::size_t triangles) {
+  std::string note =
+      fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions", bound,
+                  normals ? " degrees" : " diagonals");
+  if (triangles == kMostTriangles) note += fmt::format("; the {} triangles at the witness", kMostTriangles);
+  return note;
+}
+
+}  // namespace
+
+std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMesh& mesh, const Result& row,
+                                      int threads) try {
+  if (!row.witness || row.witness->face < 0) return std::nullopt;
+  const std::vector<std::int32_t> asked = asked_depths(mesh, row.depth);
+  Session session(*subject.subject, mesh.mesh, subject.options, Session::Input::kValid, mesh.scheme());
+  warm_up(session, mesh, row.depth, threads);
+  const Tessellation t = session.tessellate(asked, threads);
+  const lc_capabilities& c = session.capabilities();
+  session.close();
+  if (t.vertex_count() == 0) return std::nullopt;
+  ReferenceSurface truth(session.mesh(), mesh.scheme(), row.depth, c.points, family(c.weights));
+  const Evidence e = gather(subject, mesh, session, session.mesh(), asked, t, truth);
+
+  // The triangles nearest to the witness; without a vertex of its own, to the first of its face.
+  std::int64_t centre = row.witness->vertex;
+  for (std::int64_t v = 0; centre < 0 && v < t.vertex_count(); ++v)
+    if (t.provenance_ok(v) && t.place(v).face == row.witness->face) centre = v;
+  if (centre < 0 || centre >= t.vertex_count()) return std::nullopt;
+  Shown shown{{}, {}, t.position(centre)};
+  for (std::int64_t v = 0; v < t.vertex_count(); ++v) shown.positions.push_back(t.position(v));
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k)
+    if (t.triangle_ok(k)) shown.triangles.push_back(t.triangles()[k]);
+  shown.keep_nearest();
+  std::vector<Lattice::Id> wanted;
+  for (const auto& corners : shown.triangles)
+    for (const std::uint32_t v : corners) wanted.push_back(e.point[v]);
+  truth.prepare(wanted);
+  const bool normals = row.unit == "degrees" || row.check == "finite";
+  const double bound = normals ? normal_bound(c.precision, truth.steps()) : e.position_bound();
+  const auto error = [&](std::uint32_t v) {
+    const Lattice::Id point = e.point[v];
+    if (point == Lattice::kNone) return 0.0;
+    if (!normals) return norm(t.position(v) - truth.position(point)) / e.diagonal;
+    if (!t.has_normals()) return 0.0;
+    if (!is_finite(t.normal(v))) return std::numeric_limits<double>::quiet_NaN();
+    const Sides::Id side = truth.sides().of(point, t.place(v).face);
+    return truth.has_normal(side) ? angle_degrees(t.normal(v), truth.normal(side)) : 0.0;
+  };
+  ErrorShape shape = shown.shape(mesh.mesh, [&](std::uint32_t v) {
+    return value_of(error(v), normals ? bound : e.position_bound_at(e.point[v]));
+  });
+  shape.note = note_of(normals, bound, shown.triangles.size());
+  return shape;
+} catch (const std::exception&) {
+  return std::nullopt;  // the report has a row that says so
+}
+
+std::optional<ErrorShape> error_shape(const VertexErrors& file, const data::ControlMesh& control,
+                                      const Result& row) {
+  if (!row.witness || row.witness->vertex < 0 || file.positions.empty()) return std::nullopt;
+  Shown shown{file.positions, {}, file.positions[static_cast<std::size_t>(row.witness->vertex)]};
+  for (const auto& [a, b, c] : file.triangles)
+    shown.triangles.push_back(
+        {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+  shown.keep_nearest();
+  const bool normals = row.unit == "degrees";
+  const double bound = normals ? file.angle_bound : file.distance_bound;
+  ErrorShape shape = shown.shape(control, [&](std::uint32_t v) {
+    return is_finite(file.positions[v]) ? value_of(normals ? file.angle[v] : file.distance[v], bound)
+                                        : std::uint8_t{255};
+  });
+  shape.note = note_of(normals, bound, shown.triangles.size());
+  return shape;
 }
 
 }  // namespace limitcheck::verify

@@ -16,7 +16,7 @@
 #include "data/io/atomic_file.h"
 #include "data/untrusted_json.h"
 #include "verify/causes/causes.h"
-#include "verify/report/exhaustive.h"
+#include "verify/report/coverage.h"
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Findings that are known and accepted for a while.
+// Findings that are known: accepted for a while, or there in an earlier audit.
 #pragma once
 
 #include <map>
@@ -35,5 +35,26 @@ void apply_waivers(Report& report, const std::vector<Waiver>& waivers,
 /// The first number with a point in a description: "OpenSubdiv
 /// 3.5 Far: ..." gives "3.5"; "" if there is none.
 std::string version_in(const std::string& description);
+
+/// A finding is worse if its worst value, or how often it shows, is more than so many times that of the baseline.
+inline constexpr double kWorse = 1.1;
+
+/// The rows of a report that --json has written. Throws data::ArgumentError: `text` is none.
+///   file   what it is called
+std::vector<Result> reported_rows(const std::string& text, const std::string& file);
+
+/// Compares a report with that of an earlier audit, and fills in report.changes. Of the report as --json writes it, row by
+/// row of the same subject, mesh, depths and check; of a text by to_baseline(), by subject and check:
+///   new     a finding or breakdown now; not one in the baseline, or not looked at there
+///   worse   one in both, and now it breaks down, or its worst value or the share that is wrong, of a text the
+///           number of cases, is more than kWorse times that of the baseline
+///   gone    one in the baseline, and it held now
+/// Throws data::ArgumentError: `text` is neither.
+///   file   what the baseline is called
+void compare_with_baseline(Report& report, const std::string& text, const std::string& file);
+
+/// What is wrong in a report, as a text that is small, and that changes in few lines: for each subject and check in how
+/// many cases, and the worst value.
+std::string to_baseline(const Report& report);
 
 }  // namespace limitcheck::verify

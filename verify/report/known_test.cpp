@@ -14,7 +14,6 @@
 #include "verify/audit/default_plan.h"
 #include "verify/checks/checks.h"
 #include "verify/relations/relations.h"
-#include "verify/report/baseline.h"
 #include "verify/report/coverage.h"
 #include "verify/report/forms.h"
 #include "verify/report/known.h"
@@ -92,71 +91,66 @@ TEST(Baseline, AsATextTellsWhatIsNewWorseAndGoneBySubjectAndCheck) {
   EXPECT_THROW(compare_with_baseline(now, text + "positions 2 0.001 mine\n", "k.txt"), data::ArgumentError);
 }
 
-TEST(Waivers, CoverASubjectACheckAndAShapeAndNothingElse) {
+// The rows of the report after a waiver, on a day; the first of them was `before`.
+std::vector<Result> waived(const Waiver& w, const Result& before = report().results[0],
+                           const std::string& today = "2026-11-21", const std::string& version = "") {
   Report r = report();
-  apply_waivers(r, {waiver()}, {}, "2026-11-21");
-  ASSERT_EQ(r.results.size(), 4U);
-  EXPECT_EQ(r.results[0].status, Status::kWaived);
-  EXPECT_TRUE(says(r.results[0].message, "known"));
-  for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(r.results[k].status, Status::kFinding);
+  r.results[0] = before;
+  apply_waivers(r, {w}, {{"mine", version}}, today);
   EXPECT_FALSE(r.held());
+  return r.results;
+}
+
+TEST(Waivers, CoverASubjectACheckAndAShapeAndNothingElse) {
+  const auto rows = waived(waiver());
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0].status, Status::kWaived);
+  EXPECT_TRUE(says(rows[0].message, "known"));
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(rows[k].status, Status::kFinding);
 }
 
 TEST(Waivers, AreGoodUpToTheirOwnBoundOnly) {
-  Report r = report();
   Waiver w = waiver();
   w.bound = 1e-4;
-  apply_waivers(r, {w}, {}, "2026-11-21");
-  EXPECT_EQ(r.results[0].status, Status::kFinding);
-  EXPECT_TRUE(says(r.results[0].message, "beyond the waiver"));
-  r = report();
-  r.results[0].worst.reset();  // not finite
+  const Result beyond = waived(w)[0];
+  EXPECT_EQ(beyond.status, Status::kFinding);
+  EXPECT_TRUE(says(beyond.message, "beyond the waiver"));
+  Result not_finite = report().results[0];
+  not_finite.worst.reset();
   w.bound = 1;
-  apply_waivers(r, {w}, {}, "2026-11-21");
-  EXPECT_EQ(r.results[0].status, Status::kFinding);
+  EXPECT_EQ(waived(w, not_finite)[0].status, Status::kFinding);
 }
 
 TEST(Waivers, EndWithTheirLastDay) {
-  Report r = report();
-  apply_waivers(r, {waiver()}, {}, "2027-01-31");
-  EXPECT_EQ(r.results[0].status, Status::kWaived);
-  r = report();
-  apply_waivers(r, {waiver()}, {}, "2027-02-01");
-  EXPECT_EQ(r.results[0].status, Status::kFinding);
-  ASSERT_EQ(r.results.size(), 5U);
-  EXPECT_EQ(r.results[4].status, Status::kQualityWarning);
-  EXPECT_TRUE(says(r.results[4].message, "expired"));
+  EXPECT_EQ(waived(waiver(), report().results[0], "2027-01-31")[0].status, Status::kWaived);
+  const auto rows = waived(waiver(), report().results[0], "2027-02-01");
+  EXPECT_EQ(rows[0].status, Status::kFinding);
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_EQ(rows[4].status, Status::kQualityWarning);
+  EXPECT_TRUE(says(rows[4].message, "expired"));
 }
 
 TEST(Waivers, HoldForARangeOfVersions) {
-  for (const auto& [version, covered] : {std::pair{"3.4.9", false},
-                                         {"3.5", true},
-                                         {"3.5.1", true},
-                                         {"3.10", true},
-                                         {"4", false},
-                                         {"", false}}) {
-    Report r = report();
-    Waiver w = waiver();
-    w.from = "3.5";
-    w.before = "4";
-    apply_waivers(r, {w}, {{"mine", version}}, "2026-11-21");
-    EXPECT_EQ(r.results[0].status == Status::kWaived, covered) << version;
-  }
+  Waiver w = waiver();
+  w.from = "3.5";
+  w.before = "4";
+  for (const auto& [version, covered] :
+       {std::pair{"3.4.9", false}, {"3.5", true}, {"3.5.1", true}, {"3.10", true}, {"4", false}, {"", false}})
+    EXPECT_EQ(waived(w, report().results[0], "2026-11-21", version)[0].status == Status::kWaived, covered)
+        << version;
   EXPECT_EQ(version_in("OpenSubdiv 3.5 Far: uniform"), "3.5");
   EXPECT_EQ(version_in("our own"), "");
 }
 
 TEST(Waivers, WithoutAnythingToCoverAreReported) {
-  Report r = report();
   Waiver w = waiver();
   w.shape = "torus";
-  apply_waivers(r, {w}, {}, "2026-11-21");
-  ASSERT_EQ(r.results.size(), 5U);
-  EXPECT_TRUE(says(r.results[4].message, "covers nothing"));
-  r = report();
-  r.results[0].status = Status::kHeld;
-  apply_waivers(r, {waiver()}, {}, "2026-11-21");
-  EXPECT_EQ(r.results[0].status, Status::kUnexpectedPass);
+  const auto rows = waived(w);
+  ASSERT_EQ(rows.size(), 5U);
+  EXPECT_TRUE(says(rows[4].message, "covers nothing"));
+  Result held = report().results[0];
+  held.status = Status::kHeld;
+  EXPECT_EQ(waived(waiver(), held)[0].status, Status::kUnexpectedPass);
 }
 
 TEST(Waivers, ThatAreNotUnderstoodAreRefused) {

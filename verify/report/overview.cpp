@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "verify/report/coverage.h"
-#include "verify/report/exhaustive.h"
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"

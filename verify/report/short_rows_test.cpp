@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "verify/report/baseline.h"
 #include "verify/report/json.h"
+#include "verify/report/known.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -79,6 +79,12 @@ TEST(ShortRows, OneComparesAndRepeatsByThemAsByAllRows) {
     EXPECT_EQ(now.changes->appeared, 1);
     EXPECT_EQ(now.changes->gone, 1);
     EXPECT_EQ(now.changes->same, findings(report) - 2);
+    EXPECT_FALSE(now.held());
+    Report again = report;
+    compare_with_baseline(again, before, "it");
+    EXPECT_TRUE(again.held()) << "all of it is known";
+    for (const char* none : {"{}", "no JSON"})
+      EXPECT_THROW(compare_with_baseline(again, none, "it"), std::exception);
   }
 }
 

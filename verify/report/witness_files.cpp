@@ -9,7 +9,6 @@
 
 #include "data/io/write.h"
 #include "reference/surface/certified.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/report/json.h"
 #include "verify/row/commands.h"
 

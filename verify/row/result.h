@@ -214,9 +214,9 @@ struct Report {
     double diagonal = 0;       // of the bounding box
   };
   std::string version;
-  int depth = 0;                      // the largest
-  std::string depths = "uniform";     // how they were chosen (face_depths.h); "plan": one way after the
-                                      // other (default_plan.h); "file": unknown
+  int depth = 0;                   // the largest
+  std::string depths = "uniform";  // how they were chosen (evidence/audit_case.h); "plan": one way after the
+                                   // other (default_plan.h); "file": unknown
   std::optional<std::uint64_t> seed;  // of random
   std::string sample;                 // "FACES:SEED" if only a part of each mesh was looked at
   std::vector<std::string> left_out;  // checks, by --checks
@@ -233,7 +233,7 @@ struct Report {
   std::string printed;            // by the subjects, on standard output and standard error
   std::string incomplete;         // "interrupted by SIGINT": not all was looked at; empty: all was
 
-  /// Against an earlier report (baseline.h), in rows.
+  /// Against an earlier report (report/known.h), in rows.
   struct Changes {
     std::string baseline;  // its file
     std::int64_t appeared = 0, worse = 0, gone = 0, same = 0;

@@ -2,6 +2,7 @@
 // What a row measures: errors, and the time that it took to look.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -35,6 +36,15 @@ void settle(Result& row);
 
 /// Counts, worst, rms and p99 into a row, and its status: not run if nothing was looked at.
 void take(Result& row, const Statistics& statistics);
+
+/// A tessellation with the error of each of its vertices, as the page of a report colours it.
+struct VertexErrors {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<double> distance,
+      angle;  // of each vertex, in diagonals and in degrees; negative: not looked at
+  double distance_bound = 0, angle_bound = 0;
+};
 
 /// Seconds since it was made.
 class Clock {

@@ -14,7 +14,6 @@
 #include "data/validate.h"
 #include "fast/stream/kernel/targets.h"
 #include "verify/audit/audit.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/host/host.h"
 #include "verify/shared_bits/test_support/shared_bits.h"
 #include "verify/subject/registry.h"

@@ -16,7 +16,6 @@
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/audit/audit.h"
-#include "verify/evidence/face_depths.h"
 #include "verify/shared_bits/test_support/shared_bits.h"
 #include "verify/subject/registry.h"
 

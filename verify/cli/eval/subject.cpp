@@ -11,7 +11,7 @@
 #include "verify/audit/at_point.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/eval/eval.h"
-#include "verify/evidence/face_depths.h"
+#include "verify/evidence/audit_case.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "data/triangulate.h"
 #include "data/validate.h"
-#include "verify/recognise/guessed_rule.h"
+#include "verify/recognise/recognise.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -268,8 +268,7 @@ Diagnosis diagnose(const FileEvidence& e) {
       if (misfit < least) best = &g, least = misfit, convincing = like.convincing();
     }
     if (!convincing) continue;
-    const Recognised what{describe(best->scheme, best->steps, best->limit), std::string(word(best->scheme)),
-                          best->steps, best->limit, best->tags};
+    const Recognised what = recognised(best->scheme, best->steps, best->limit, best->tags);
     const Result row = recognised_row(e, sampled, *best, what, how);
     return {
         {fmt::format(

@@ -19,7 +19,7 @@ struct Diagnosis {
 
 /// Compares the points with what other schemes, and that of the control mesh without its last step to the
 /// limit, make of the same control mesh, at every number of steps with about as many vertices: a sample, by
-/// majority (recognise/guessed_rule.h), and all with what that recognises, by rounding(); and the
+/// majority (recognise/recognise.h), and all with what that recognises, by rounding(); and the
 /// distance from the surface with that of the refined control points. Schemes of triangles are tried on the
 /// control mesh with its faces cut as fans from their first corner.
 Diagnosis diagnose(const FileEvidence& evidence);

@@ -13,22 +13,16 @@
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/help.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/refusal.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/row/visible_text.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {
 namespace {
-
-std::string report_file(const AuditArguments& a, const char* type) {
-  return a.report.empty() ? "" : a.report + "/audit." + type;
-}
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
@@ -113,10 +107,10 @@ Job job_of(AuditArguments a) {
   }
   take_program(a.from, a.subject, a.meshes);
   take_mesh(a.from, a.subject, a.meshes);
-  job.whole = a.subject.empty() && a.rerun.empty();
-  if (job.whole) a.subject = "all";
+  const bool all = a.subject.empty() && a.rerun.empty();
+  if (all) a.subject = "all";
   refuse_with_shards(a);
-  if (a.must_refuse && (job.whole || a.meshes.empty()))
+  if (a.must_refuse && (all || a.meshes.empty()))
     throw data::ArgumentError("--must-refuse needs a subject and the files of broken meshes");
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
   if (a.exhaustive > 0 && (a.subject == "all" || !a.meshes.empty() || !a.plan))
@@ -137,67 +131,33 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
   }));
 }
 
-// Below the overview.
-std::string where_the_rest_is(const Job& job) {
-  const AuditArguments& a = job.arguments;
-  if (!a.report.empty())
-    return fmt::format(
-        "{} shows the causes in a browser; {} has all tables, and each cause with the command that shows it; "
-        "{} is for programs.\n",
-        report_file(a, "html"), report_file(a, "txt"), report_file(a, "json"));
-  return "--details prints all tables. --explain CHECK says what a check means.\n";
-}
-
-void print(const Job& job, const verify::Report& report, const std::string& json,
-           const std::string& scheme_line) {
-  const AuditArguments& a = job.arguments;
-  if (a.shard.json == "-")
-    say_text(stdout, json);
-  else
-    say_report(a.output, report, [&](const verify::Report& shown, const verify::Screen& screen) {
-      const std::string schemes = verify::visible_text(scheme_line);
-      return a.details || a.each_mesh ? schemes + "\n" + verify::to_table(shown, screen, a.each_mesh)
-                                      : verify::to_overview(shown, verify::causes(shown), screen, schemes,
-                                                            a.output.level, where_the_rest_is(job));
-    });
-}
-
-// Everything that goes into files; if all is `done`, the report makes the journal superfluous. They are
-// written before the table, because a reader of the table may close the pipe. The table is printed even if a
-// file cannot be written: the error is returned.
-std::exception_ptr write_files(const Job& job, const Audited& audited, const std::string& json,
-                               verify::Journal* journal, bool done) {
-  const AuditArguments& a = job.arguments;
+// Everything that goes into files; if all is `done`, the report makes the journal superfluous.
+void write_files(const AuditArguments& a, const Audited& audited, const std::string& json,
+                 verify::Journal* journal, bool done) {
   const verify::Report& report = audited.report;
-  const bool shard = !a.shard.of().is_whole();
-  try {
-    write_forms(a.output, report, a.output.level);
-    if (shard)
-      write_part(a.shard, *journal,
-                 {{},
-                  {},
-                  report.seconds,
-                  report.containment,
-                  report.printed,
-                  report.incomplete,
-                  verify::receipts_json(report.receipts)});
-    else if (!a.shard.json.empty() && a.shard.json != "-")
-      verify::write_text(a.shard.json, json);
-    if (!a.report.empty()) {
-      verify::write_text(report_file(a, "json"), json);
-      verify::write_text(report_file(a, "txt"),
-                         "Root causes\n\n" +
-                             verify::causes_in_full(report, verify::causes(report), a.output.level) +
-                             "Tables\n\n" + verify::to_table(report, {}));
-    }
-    for (const std::string& html : {a.output.html, report_file(a, "html")})
-      if (!html.empty()) write_html(html, audited, a.output.level);
-    write_witnesses(a.output, audited);
-    if (journal != nullptr && done) journal->remove();
-  } catch (const std::exception&) {
-    return std::current_exception();
+  write_forms(a.output, report, a.output.level);
+  if (!a.shard.of().is_whole())
+    write_part(a.shard, *journal,
+               {{},
+                {},
+                report.seconds,
+                report.containment,
+                report.printed,
+                report.incomplete,
+                verify::receipts_json(report.receipts)});
+  else if (!a.shard.json.empty() && a.shard.json != "-")
+    verify::write_text(a.shard.json, json);
+  if (!a.report.empty()) {
+    verify::write_text(report_file(a, "json"), json);
+    verify::write_text(report_file(a, "txt"),
+                       "Root causes\n\n" +
+                           verify::causes_in_full(report, verify::causes(report), a.output.level) +
+                           "Tables\n\n" + verify::to_table(report, {}));
   }
-  return nullptr;
+  for (const std::string& html : {a.output.html, report_file(a, "html")})
+    if (!html.empty()) write_html(html, audited, a.output.level);
+  write_witnesses(a.output, audited);
+  if (journal != nullptr && done) journal->remove();
 }
 
 // Whether nothing was judged on a mesh that the user named; says so.
@@ -290,10 +250,9 @@ int audit(const Job& job) {
     const std::string json =
         reports && whole ? attested(verify::to_json(report, a.output.level, a.output.all_rows), plan.what)
                          : "";
-    const auto not_written =
-        write_files(job, {audited, meshes, report, a.threads}, json, journal.get(), done);
-    print(job, report, json, asked.scheme_line);
-    if (not_written) std::rethrow_exception(not_written);
+    deliver(a, report, json, asked.scheme_line, [&] {
+      write_files(a, {audited, meshes, report, a.threads}, json, journal.get(), done);
+    });
     const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
     if (later != signal)
       say(stderr, "limitcheck: interrupted by {}: not all witnesses are written\n",

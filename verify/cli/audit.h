@@ -84,6 +84,14 @@ struct AuditArguments {
   SubjectArguments from;
 };
 
+/// The file of --report in this form; empty: there is none.
+std::string report_file(const AuditArguments& arguments, const char* form);
+/// Writes the files of a finished audit, then prints its report, or `json` where that goes to standard output. The files come
+/// first, because a reader of the table may close the pipe; and the table is printed even if a file cannot be written.
+///   about   what stands above the table
+void deliver(const AuditArguments& arguments, const verify::Report& report, const std::string& json,
+             const std::string& about, const std::function<void()>& write_files);
+
 /// The checks of subjects that --checks leaves out: all but those that it names, or those behind a minus. Throws
 /// data::ArgumentError: there is no such check.
 std::vector<std::string> left_out_by(const std::string& checks);
@@ -105,7 +113,6 @@ struct Job {
   std::optional<Sampling> sampling;
   std::vector<std::string> left_out;  // by --checks
   Rerun again;
-  bool whole = false;  // no subject was named: all of them, and the report in a file of its own
   verify::Level level() const;
 };
 

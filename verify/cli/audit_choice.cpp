@@ -21,16 +21,15 @@
 namespace limitcheck::cli {
 
 std::vector<std::string> left_out_by(const std::string& checks) {
+  if (checks.empty()) return {};
   std::vector<std::string> known;
   for (const verify::RowKind& row : verify::row_kinds())
     if (!row.check.starts_with("file-") && !row.check.starts_with("oracle-")) known.emplace_back(row.check);
   std::set<std::string, std::less<>> left_out;
-  if (!checks.starts_with('-') && !checks.empty()) left_out.insert(known.begin(), known.end());
-  for (std::size_t first = 0; first < checks.size();) {
-    const std::size_t end = std::min(checks.find(',', first), checks.size());
-    const bool without = checks[first] == '-';
-    const std::string check(verify::current_name(
-        std::string_view(checks).substr(first + (without ? 1 : 0), end - first - (without ? 1 : 0))));
+  if (!checks.starts_with('-')) left_out.insert(known.begin(), known.end());
+  for (const std::string& word : CLI::detail::split(checks, ',')) {
+    const bool without = word.starts_with('-');
+    const std::string check(verify::current_name(std::string_view(word).substr(without ? 1 : 0)));
     if (std::find(known.begin(), known.end(), check) == known.end())
       throw data::ArgumentError(
           fmt::format("--checks: there is no check '{}'; there are: {}", check, fmt::join(known, ", ")));
@@ -40,7 +39,6 @@ std::vector<std::string> left_out_by(const std::string& checks) {
         left_out.insert(row);
       else
         left_out.erase(row);
-    first = end + 1;
   }
   left_out.erase("tessellates");  // without it nothing can be judged
   std::erase_if(known, [&](const std::string& check) { return !left_out.contains(check); });

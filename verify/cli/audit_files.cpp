@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -22,7 +21,6 @@
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/row/visible_text.h"
 #include "verify/subject/shell_word.h"
 
 namespace limitcheck::cli {
@@ -182,10 +180,8 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   const std::string text = json.empty() ? ""
                                         : attested(verify::to_json(report, a.output.level, a.output.all_rows),
                                                    plan_of(files, report.subjects));
-  // Files are written first, because a reader of the table may close the pipe; and the table is printed even
-  // if a file cannot be written.
-  std::exception_ptr not_written;
-  try {
+  // The table stands behind an empty line.
+  deliver(a, report, text, a.details ? about + "\n" : about, [&] {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, per_vertex);
     if (!json.empty() && json != "-") verify::write_text(json, text);
     write_forms(a.output, report, a.output.level);
@@ -199,21 +195,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
         return verify::error_shape(errors[row.subject], control, row);
       });
     write_witnesses(a.output, audited);
-  } catch (const std::exception&) {
-    not_written = std::current_exception();
-  }
-  if (json == "-") {
-    say_text(stdout, text);
-  } else {
-    say_report(a.output, report, [&](const verify::Report& shown, const verify::Screen& screen) {
-      const std::string top = verify::visible_text(about);
-      return a.details ? top + "\n\n" + verify::to_table(shown, screen)
-                       : verify::to_overview(shown, verify::causes(shown), screen, top, a.output.level,
-                                             "--details prints all tables. --explain CHECK says what a check "
-                                             "means.\n");
-    });
-  }
-  if (not_written) std::rethrow_exception(not_written);
+  });
   return signal != 0 ? kSignalled + signal : exit_code_of(report, judged);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <optional>
 
@@ -43,34 +44,28 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
                    fmt::format("Write every row to the JSON report; without it a report of more than {} rows "
                                "has of each subject and check the {} that say most, and the others in short",
                                verify::kMostInFull, verify::kInFull));
-  command.add_option("--color,--colour", a.colour, "Colours on the screen: auto is where it is a terminal")
-      ->check(CLI::IsMember({"auto", "always", "never"}))
-      ->capture_default_str();
+  add_choice(command, "--color,--colour", a.colour, {"auto", "always", "never"},
+             "Colours on the screen: auto is where it is a terminal");
   add_value(command, "--junit", a.junit, "FILE", "Write the results as JUnit XML to FILE");
   add_value(command, "--sarif", a.sarif, "FILE", "Write the root causes to FILE as a log of SARIF 2.1.0");
   add_value(command, "--markdown", a.markdown, "FILE", "Write overview and root causes to FILE as Markdown");
-  command
-      .add_option("--waivers", a.waivers, "JSON file of findings that are known and accepted until a date")
-      ->check(CLI::ExistingFile)
-      ->type_name("FILE");
-  command
-      .add_option("--baseline", a.baseline,
-                  "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone "
-                  "since, and exit with 1 only for what is new or worse")
-      ->check(CLI::ExistingFile)
-      ->type_name("FILE");
+  add_value(command, "--waivers", a.waivers, "FILE",
+            "JSON file of findings that are known and accepted until a date")
+      ->check(CLI::ExistingFile);
+  add_value(
+      command, "--baseline", a.baseline, "FILE",
+      "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone since, "
+      "and exit with 1 only for what is new or worse")
+      ->check(CLI::ExistingFile);
   add_value(command, "--save-baseline", a.save_baseline, "FILE",
             "Write what is wrong to FILE, as a small text for --baseline: a line for each subject and check");
 }
 
 void add_output_options(CLI::App& command, OutputArguments& a) {
-  command
-      .add_option(
-          "--level", a.level,
-          "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
-          "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes")
-      ->check(CLI::IsMember({"quick", "standard", "thorough"}))
-      ->capture_default_str();
+  add_choice(
+      command, "--level", a.level, {"quick", "standard", "thorough"},
+      "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
+      "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes");
   add_report_options(command, a);
   add_value(command, "--html", a.html, "FILE",
             "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
@@ -103,6 +98,44 @@ void say_report(const ReportOptions& options, const verify::Report& report,
   for (verify::Result& r : shown.results)
     for (std::string* words : {&r.subject, &r.mesh, &r.depths, &r.message}) show(*words);
   std::fputs(text(shown, {true, width}).c_str(), stdout);
+}
+
+std::string report_file(const AuditArguments& a, const char* form) {
+  return a.report.empty() ? "" : a.report + "/audit." + form;
+}
+
+namespace {
+
+// Below the overview.
+std::string where_the_rest_is(const AuditArguments& a) {
+  if (!a.report.empty())
+    return fmt::format(
+        "{} shows the causes in a browser; {} has all tables, and each cause with the command that shows it; "
+        "{} is for programs.\n",
+        report_file(a, "html"), report_file(a, "txt"), report_file(a, "json"));
+  return "--details prints all tables. --explain CHECK says what a check means.\n";
+}
+
+}  // namespace
+
+void deliver(const AuditArguments& a, const verify::Report& report, const std::string& json,
+             const std::string& about, const std::function<void()>& write_files) {
+  std::exception_ptr not_written;
+  try {
+    write_files();
+  } catch (const std::exception&) {
+    not_written = std::current_exception();
+  }
+  if (a.shard.json == "-")
+    say_text(stdout, json);
+  else
+    say_report(a.output, report, [&](const verify::Report& shown, const verify::Screen& screen) {
+      const std::string top = verify::visible_text(about);
+      return a.details || a.each_mesh ? top + "\n" + verify::to_table(shown, screen, a.each_mesh)
+                                      : verify::to_overview(shown, verify::causes(shown), screen, top,
+                                                            a.output.level, where_the_rest_is(a));
+    });
+  if (not_written) std::rethrow_exception(not_written);
 }
 
 bool explained(const OutputArguments& a) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,19 +42,11 @@ std::vector<const Claim*> chosen(const std::vector<std::string>& ids) {
   return list;
 }
 
-struct Coverage {
-  std::int64_t claims = 0, with_check = 0;
-  std::map<ClaimOutcome, std::int64_t> outcomes;
-};
-
-Coverage coverage(const std::vector<ClaimResult>& results) {
-  Coverage c;
-  for (const ClaimResult& r : results) {
-    ++c.claims;
-    c.with_check += !r.claim->check.empty();
-    ++c.outcomes[r.outcome];
-  }
-  return c;
+// How many claims have each outcome.
+std::map<ClaimOutcome, std::int64_t> outcomes(const std::vector<ClaimResult>& results) {
+  std::map<ClaimOutcome, std::int64_t> count;
+  for (const ClaimResult& r : results) ++count[r.outcome];
+  return count;
 }
 
 std::vector<std::pair<std::string, std::int64_t>> verdicts(const std::vector<ClaimResult>& results) {
@@ -63,31 +56,23 @@ std::vector<std::pair<std::string, std::int64_t>> verdicts(const std::vector<Cla
 }
 
 /// Whether our tests of a claim agree with the verdict that the register has.
-std::string_view colour(ClaimOutcome outcome) {
-  switch (outcome) {
-    case ClaimOutcome::kHeld:
-      return "green";
-    case ClaimOutcome::kNotHeld:
-      return "red";
-    case ClaimOutcome::kNotRun:
-      return "not run";
-    case ClaimOutcome::kNotCheckable:
-      return "none";
-  }
-  return "not run";
-}
+const Words<ClaimOutcome> kColours{{"green", ClaimOutcome::kHeld},
+                                   {"red", ClaimOutcome::kNotHeld},
+                                   {"not run", ClaimOutcome::kNotRun},
+                                   {"none", ClaimOutcome::kNotCheckable}};
 
 std::string to_json(const std::vector<ClaimResult>& results) {
   Json out{{"program", "limitcheck claims"}, {"version", LIMITCHECK_VERSION}};
-  Coverage c = coverage(results);
-  out["coverage"] = {{"claims", c.claims},
-                     {"with_check", c.with_check},
-                     {"held", c.outcomes[ClaimOutcome::kHeld]},
-                     {"not_held", c.outcomes[ClaimOutcome::kNotHeld]},
-                     {"not_run", c.outcomes[ClaimOutcome::kNotRun]},
-                     {"not_checkable", c.outcomes[ClaimOutcome::kNotCheckable]}};
+  auto count = outcomes(results);
+  out["coverage"] = {
+      {"claims", results.size()},
+      {"with_check", std::ranges::count_if(results, [](const auto& r) { return !r.claim->check.empty(); })},
+      {"held", count[ClaimOutcome::kHeld]},
+      {"not_held", count[ClaimOutcome::kNotHeld]},
+      {"not_run", count[ClaimOutcome::kNotRun]},
+      {"not_checkable", count[ClaimOutcome::kNotCheckable]}};
   out["verdicts"] = Json::object();
-  for (const auto& [verdict, count] : verdicts(results)) out["verdicts"][verdict] = count;
+  for (const auto& [verdict, claims] : verdicts(results)) out["verdicts"][verdict] = claims;
   out["claims"] = Json::array();
   const auto text = [](const std::string& s) { return s.empty() ? Json(nullptr) : Json(s); };
   for (const ClaimResult& r : results) {
@@ -115,21 +100,20 @@ std::string to_table(const std::vector<ClaimResult>& results) {
                                 "the paper says");
   for (const ClaimResult& r : results) {
     out += verify::wrapped(fmt::format("{:<4} {:<13} {:<21} {:<9}  {}\n", r.claim->id, r.claim->place,
-                                       r.claim->verdict, colour(r.outcome), r.claim->statement),
+                                       r.claim->verdict, word_of(kColours, r.outcome), r.claim->statement),
                            width, 6);
     for (const std::string& line : {r.claim->note, r.finding, r.message.substr(0, r.message.find('\n'))})
       if (!line.empty()) out += verify::wrapped(fmt::format("     {}\n", line), width, 5);
   }
-  std::string conclusions;
-  for (const auto& [verdict, count] : verdicts(results))
-    if (count > 0) conclusions += fmt::format("{}{} {}", conclusions.empty() ? "" : ", ", verdict, count);
-  Coverage c = coverage(results);
-  out += verify::wrapped(
-      fmt::format("\n{} claims of the paper: {}\nour tests: green {}, red {}, not run {}, none {}\n",
-                  c.claims, conclusions, c.outcomes[ClaimOutcome::kHeld], c.outcomes[ClaimOutcome::kNotHeld],
-                  c.outcomes[ClaimOutcome::kNotRun], c.outcomes[ClaimOutcome::kNotCheckable]),
-      width, 2);
-  return out;
+  std::vector<std::string> conclusions, tests;
+  for (const auto& [verdict, claims] : verdicts(results))
+    if (claims > 0) conclusions.push_back(fmt::format("{} {}", verdict, claims));
+  auto count = outcomes(results);
+  for (const auto& [colour, outcome] : kColours)
+    tests.push_back(fmt::format("{} {}", colour, count[outcome]));
+  return out + verify::wrapped(fmt::format("\n{} claims of the paper: {}\nour tests: {}\n", results.size(),
+                                           fmt::join(conclusions, ", "), fmt::join(tests, ", ")),
+                               width, 2);
 }
 
 int claims(const ClaimsArguments& a) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands of the program, and kinds of options that several have.
+// The commands of the program, kinds of options that several have, and what limitcheck and the programs that it hands
+// commands over to have in common.
 #pragma once
 
 #include <fmt/core.h>
@@ -8,8 +9,10 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -37,6 +40,29 @@ void add_merge(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
 void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes the manual page of
+
+/// The whole of main(): parses, which runs the command, and says what is wrong. Returns the exit code, which the
+/// command has stored in `exit_code`.
+int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
+
+/// Becomes limitcheck-NAME (find_program), with these arguments, or those of this program. Returns, with an exit code,
+/// only if that fails, and says why.
+int hand_over(const std::string& name, const std::vector<std::string>& arguments);
+int hand_over(const std::string& name);
+
+/// A command line, and what it is for.
+struct Example {
+  std::string_view line, purpose;
+};
+/// Of a command, the most usual first: what --help and the manual page show besides the options. Each runs as it stands in
+/// an empty folder, but for those that name a file or a library of the user's.
+std::vector<Example> examples_of(std::string_view command);
+
+/// --help of this program and of all commands that are added from now on: description, examples, options.
+void show_examples(CLI::App& app);
+
+/// Puts options of a command together, under a title.
+void group(CLI::App& command, const char* title, std::initializer_list<const char*> options);
 
 /// Writes to standard output or error, as visible text (verify/row/visible_text.h): all that the program prints goes this
 /// way, because names and messages are somebody else's.
@@ -86,6 +112,12 @@ template <class Value>
 CLI::Option* add_value(CLI::App& command, const std::string& names, Value& value, const char* type,
                        const std::string& text) {
   return command.add_option(names, value, text)->type_name(type);
+}
+
+/// An option that is one of these texts; --help shows its default.
+inline CLI::Option* add_choice(CLI::App& command, const std::string& names, std::string& value,
+                               const std::vector<std::string>& choices, const std::string& text) {
+  return command.add_option(names, value, text)->check(CLI::IsMember(choices))->capture_default_str();
 }
 
 /// The words of the command line for values of a type.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/help.h"
-
+// The examples of --help and of the manual page.
 #include <fmt/core.h>
 
 #include <memory>
 #include <string>
+
+#include "verify/cli/commands.h"
 
 namespace limitcheck::cli {
 namespace {

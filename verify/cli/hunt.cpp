@@ -121,7 +121,7 @@ void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& co
                Clock::time_point end) {
   const Hunted hunted(a);
   verify::HuntReport report = part_of(hunted.report(a), journal);
-  verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {1, a.attempts, a.witnesses});
+  verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {a.attempts, a.witnesses});
   std::uint64_t shown = report.findings.size();
   counters.cases += report.cases, counters.findings += shown;
   for (std::uint64_t n = 0; a.time.empty() ? n < a.cases : Clock::now() < end; ++n) {
@@ -148,8 +148,7 @@ void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& co
 // The journals of the processes: beside the report, or in a folder that vanishes.
 class PartFiles {
  public:
-  PartFiles(const HuntArguments& a, const verify::HuntReport& report, const verify::Shard& whole)
-      : report_(report) {
+  PartFiles(const HuntArguments& a, const verify::HuntReport& report, const verify::Shard& whole) {
     std::string stem = a.json;
     if (a.json.empty() || a.json == "-") {
       folder_ = std::filesystem::temp_directory_path() / fmt::format("limitcheck-hunt-{}", getpid());
@@ -160,10 +159,9 @@ class PartFiles {
       const std::string file = fmt::format("{}.part{}", stem, job + 1);
       const verify::Shard shard{whole.index + whole.count * static_cast<std::uint64_t>(job),
                                 whole.count * static_cast<std::uint64_t>(a.jobs)};
-      files_.push_back(file);
       journals.push_back(std::make_unique<verify::Journal>(plan_of(report, shard), file,
                                                            a.resume && std::filesystem::exists(file)));
-      require(file);
+      journals.back()->reload();
     }
   }
   ~PartFiles() {
@@ -172,31 +170,10 @@ class PartFiles {
   }
   PartFiles(const PartFiles&) = delete;
   PartFiles& operator=(const PartFiles&) = delete;
-  // What the processes have written.
-  std::vector<verify::HuntReport> read() {
-    std::vector<verify::HuntReport> parts;
-    for (std::size_t k = 0; k < files_.size(); ++k) {
-      const verify::Plan plan = journals[k]->plan();
-      require(files_[k]);
-      journals[k].reset();  // which holds the lock
-      journals[k] = std::make_unique<verify::Journal>(plan, files_[k], true);
-      parts.push_back(part_of(report_, *journals[k]));
-    }
-    return parts;
-  }
-  void remove() const {
-    for (const auto& journal : journals) journal->remove();
-  }
 
   std::vector<std::unique_ptr<verify::Journal>> journals;
 
  private:
-  static void require(const std::string& file) {
-    if (!std::filesystem::exists(file)) throw data::ArgumentError(file + " cannot be written");
-  }
-
-  verify::HuntReport report_;
-  std::vector<std::string> files_;
   std::filesystem::path folder_;
 };
 
@@ -261,7 +238,12 @@ int hunt(HuntArguments a) {
       });
   progress.clear();
 
-  verify::HuntReport report = verify::combined(files.read());
+  std::vector<verify::HuntReport> parts;
+  for (const auto& journal : files.journals) {
+    journal->reload();  // the processes have written it
+    parts.push_back(part_of(header, *journal));
+  }
+  verify::HuntReport report = verify::combined(parts);
   report.shard = shard;
   if (report.cases == 0 && code == kBadInput) return kBadInput;  // it has been said
   const int signal = verify::interrupted();
@@ -274,7 +256,8 @@ int hunt(HuntArguments a) {
   if (report.incomplete.empty() && report.asked != 0) report.next = report.asked;
   if (!a.json.empty() && a.json != "-") verify::write_text(a.json, verify::to_json(report));
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report, before));
-  if (report.incomplete.empty()) files.remove();
+  if (report.incomplete.empty())
+    for (const auto& journal : files.journals) journal->remove();
   if (a.json == "-")
     say("{}", verify::to_json(report));
   else

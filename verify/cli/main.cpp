@@ -3,9 +3,7 @@
 #include <string>
 
 #include "verify/cli/commands.h"
-#include "verify/cli/help.h"
-#include "verify/cli/program.h"
-#include "verify/cli/prove_options.h"
+#include "verify/cli/units.h"
 #include "verify/host/in_turns.h"
 #include "verify/host/isolation/worker.h"
 #include "verify/subject/registry.h"

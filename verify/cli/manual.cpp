@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The manual page: the same tables as --help, written for man. The build fills the page's frame
 // (verify/package/limitcheck.1.in) with it.
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -10,7 +11,6 @@
 
 #include "data/error.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/help.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -51,10 +51,9 @@ Value value_of(const CLI::Option& option) {
   const std::string condition = type.substr(colon + 1);
   const std::size_t from = condition.find('['), to = condition.find(" - "), end = condition.find(']');
   if (condition.starts_with('{') && type.starts_with("TEXT:")) {
-    value.name.clear();
-    std::istringstream choices(condition.substr(1, condition.find('}') - 1));
-    for (std::string choice; std::getline(choices, choice, ',');)
-      value.name += (value.name.empty() ? "" : "|") + italic(choice);
+    std::vector<std::string> choices = CLI::detail::split(condition.substr(1, condition.find('}') - 1), ',');
+    std::ranges::transform(choices, choices.begin(), italic);
+    value.name = CLI::detail::join(choices, "|");
   } else if (from < to && to < end && end != std::string::npos) {
     value.range = condition.substr(from + 1, to - from - 1) + " to " + condition.substr(to + 3, end - to - 3);
   }
@@ -76,16 +75,11 @@ std::string option_entry(const CLI::Option& option) {
 
 // What stands below the options; lines that begin with a blank are a table.
 std::string footer_text(const std::string& footer) {
-  std::string out;
-  if (footer.find("\n ") != std::string::npos) {
-    out = ".PP\n.nf\n";
-    std::istringstream lines(footer);
-    for (std::string line; std::getline(lines, line);) out += plain(line) + "\n";
-    return out + ".fi\n";
-  }
+  const bool table = footer.find("\n ") != std::string::npos;
+  std::string out = table ? ".PP\n.nf\n" : "";
   std::istringstream lines(footer);
-  for (std::string line; std::getline(lines, line);) out += ".PP\n" + plain(line) + "\n";
-  return out;
+  for (std::string line; std::getline(lines, line);) out += (table ? "" : ".PP\n") + plain(line) + "\n";
+  return table ? out + ".fi\n" : out;
 }
 
 std::vector<const CLI::App*> commands(const CLI::App& app) {

@@ -14,7 +14,6 @@
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/program.h"
 #include "verify/cli/units.h"
 #include "verify/hunt/hunt_report.h"
 #include "verify/report/coverage.h"
@@ -98,14 +97,6 @@ int merge_hunt(const MergeArguments& a) {
   return verify::new_findings(whole, before).empty() ? kHeld : kFindings;
 }
 
-verify::Status status_of(const std::string& text) {
-  using enum verify::Status;
-  for (const auto status : {kHeld, kFinding, kQualityWarning, kNotSupported, kNotRun, kCrash, kTimeout,
-                            kError, kWaived, kUnexpectedPass})
-    if (verify::word(status) == text) return status;
-  throw data::ArgumentError(fmt::format("there is no status {}", text));
-}
-
 // Why a report is not whole or not as it was written; empty: it is both.
 std::string why_not(const nlohmann::json& report) try {
   if (report.contains("together")) {
@@ -123,15 +114,10 @@ std::string why_not(const nlohmann::json& report) try {
                      [&](const auto& row) { return row.at("subject") == subject; }))
       return fmt::format("it has no row of {}", subject.get<std::string>());
   for (const nlohmann::json& row : report.at("results")) {
-    verify::Result r;
-    r.status = status_of(row.at("status").get<std::string>());
-    r.bad = row.at("count"), r.of = row.at("of");
-    if (row.at("worst").is_number()) r.worst = row.at("worst").get<double>();
-    if (row.at("bound").is_number()) r.bound = row.at("bound").get<double>();
+    const verify::Result r = verify::reported_row(row);
     if (verify::verdict_of(r) != r.status)
-      return fmt::format("{} of {} on {} says {}, and its numbers say {}", row.at("check").get<std::string>(),
-                         row.at("subject").get<std::string>(), row.at("mesh").get<std::string>(),
-                         verify::word(r.status), word(verify::verdict_of(r)));
+      return fmt::format("{} of {} on {} says {}, and its numbers say {}", r.check, r.subject, r.mesh,
+                         verify::word(r.status), verify::word(verify::verdict_of(r)));
   }
   return "";
 } catch (const nlohmann::json::exception& error) {

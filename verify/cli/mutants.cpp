@@ -26,22 +26,22 @@ using verify::Kill, verify::KillTable;
 std::string to_json(const KillTable& table) {
   Json out{{"program", "limitcheck mutants"}, {"version", LIMITCHECK_VERSION}, {"held", table.held()}};
   out["mutants"] = Json::array();
-  for (const Kill& k : table.kills)
-    out["mutants"].push_back({{"name", k.mutant->name},
-                              {"description", k.mutant->description},
-                              {"subject", fmt::format("{}:{}", k.mutant->subject, k.mutant->options)},
-                              {"claim", k.mutant->claim.empty() ? Json(nullptr) : Json(k.mutant->claim)},
-                              {"check", k.mutant->check},
-                              {"killed", !k.killed_by.empty()},
-                              {"killed_by_check", k.by_its_check()},
-                              {"killed_by", k.killed_by},
-                              {"case", k.on.empty() ? Json(nullptr) : Json(k.on)}});
-  for (std::size_t n = 0; n < table.kills.size(); ++n)
-    if (const Kill& k = table.kills[n]; k.bare_cases >= 0)
-      out["mutants"][n]["without_provenance"] = {
-          {"cases", k.bare_cases},
-          {"killed_by_check", k.bare_killed_by.contains(k.mutant->check)},
-          {"killed_by", k.bare_killed_by}};
+  for (const Kill& k : table.kills) {
+    Json& one = out["mutants"].emplace_back(
+        Json{{"name", k.mutant->name},
+             {"description", k.mutant->description},
+             {"subject", fmt::format("{}:{}", k.mutant->subject, k.mutant->options)},
+             {"claim", k.mutant->claim.empty() ? Json(nullptr) : Json(k.mutant->claim)},
+             {"check", k.mutant->check},
+             {"killed", !k.killed_by.empty()},
+             {"killed_by_check", k.by_its_check()},
+             {"killed_by", k.killed_by},
+             {"case", k.on.empty() ? Json(nullptr) : Json(k.on)}});
+    if (k.bare_cases >= 0)
+      one["without_provenance"] = {{"cases", k.bare_cases},
+                                   {"killed_by_check", k.bare_killed_by.contains(k.mutant->check)},
+                                   {"killed_by", k.bare_killed_by}};
+  }
   out["idle_checks"] = table.idle;
   out["red_on_correct_subjects"] = table.red_on_correct;
   return dumped(out, 1);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "verify/cli/program.h"
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -94,17 +92,6 @@ std::string what_was_meant(const std::string& word) {
       "To tessellate it:              limitcheck tessellate {0} -o fine.obj\n"
       "Run with --help for more information.\n",
       word);
-}
-
-// Returns only if it fails.
-void become(const fs::path& path, const std::vector<std::string>& arguments) {
-  std::string program = path.string();
-  std::vector<std::string> copies = arguments;
-  std::vector<char*> list{program.data()};
-  for (std::string& argument : copies) list.push_back(argument.data());
-  list.push_back(nullptr);
-  execv(program.c_str(), list.data());
-  say(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
 }
 
 bool is_command(const CLI::App& app, const std::string& word) {
@@ -215,15 +202,21 @@ int run_program(CLI::App& app, int argc, char** argv, const int& exit_code) {
 }
 
 int hand_over(const std::string& name, const std::vector<std::string>& arguments) {
-  const fs::path path = find_program(name);
-  if (!path.empty()) {
-    become(path, arguments);
-  } else {
+  const std::string program = find_program(name).string();
+  if (program.empty()) {
     say(stderr,
         "limitcheck: '{0}' is not here: a build of the sources has it, as `bash verify/run.sh {0}` makes "
         "it\n",
         name);
+    return kBadInput;
   }
+  std::vector<std::string> words{program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> list;
+  for (std::string& word : words) list.push_back(word.data());
+  list.push_back(nullptr);
+  execv(program.c_str(), list.data());
+  say(stderr, "limitcheck: {}: {}\n", program, std::strerror(errno));
   return kBadInput;
 }
 

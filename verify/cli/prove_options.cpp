@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The options of limitcheck prove, known to limitcheck and to limitcheck-prove, which does it.
-#include "verify/cli/prove_options.h"
-
 #include <memory>
+
+#include "verify/cli/commands.h"
+#include "verify/cli/units.h"
+#include "verify/proof/proof_set.h"
 
 namespace limitcheck::cli {
 
@@ -11,23 +13,15 @@ void add_prove(CLI::App& app, const std::function<void(const ProveRequest&)>& pr
       "prove",
       "Prove that the kernels compute the exact limit surface, whatever the geometry, topology by topology");
   auto request = std::make_shared<ProveRequest>();
-  command->add_option("--scheme", request->scheme, "The subdivision scheme")
-      ->check(CLI::IsMember({"loop", "catmull-clark"}))
-      ->capture_default_str();
+  request->depth = verify::ProofRequest().depth;
+  add_choice(*command, "--scheme", request->scheme, {"loop", "catmull-clark"}, "The subdivision scheme");
   command->add_option("--valences", request->valences,
                       "Interior valences: of the triples 3:12 or a list 3,4,6; 3:8 of a quad's four corners");
-  command->add_option("--depth", request->depth, "Deepest subdivision")
-      ->check(CLI::Range(0, 8))
-      ->capture_default_str();
-  command->add_option("--kernel", request->kernel, "The kernel")
-      ->check(CLI::IsMember({"sliding-window", "row-stream", "all"}))
-      ->capture_default_str();
-  command
-      ->add_option("--set", request->set,
-                   "How much: standard takes three minutes on two cores, full some twenty; sample, every "
-                   "tenth topology of the standard set, takes ten seconds")
-      ->check(CLI::IsMember({"sample", "standard", "full"}))
-      ->capture_default_str();
+  add_number(*command, "--depth", request->depth, 0, 8, "Deepest subdivision");
+  add_choice(*command, "--kernel", request->kernel, {"sliding-window", "row-stream", "all"}, "The kernel");
+  add_choice(*command, "--set", request->set, {"sample", "standard", "full"},
+             "How much: standard takes three minutes on two cores, full some twenty; sample, every tenth "
+             "topology of the standard set, takes ten seconds");
   command->add_flag("--each", request->each, "A line for every topology, not for every group of them");
   add_json_option(*command, request->shard);
   add_shard_options(*command, request->shard, "topologies");

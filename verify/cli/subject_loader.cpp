@@ -15,7 +15,7 @@
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/commands.h"
 #include "verify/host/host.h"
-#include "verify/host/isolation/launcher.h"
+#include "verify/host/isolation/keeper.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/shell_word.h"
 
@@ -58,15 +58,13 @@ void refuse_unknown_options(const lc_subject& subject, const std::string& option
     return;  // it knows its options
   }
   const std::string_view help = subject.options != nullptr ? subject.options : "";
-  for (std::size_t begin = 0; begin < options.size();) {
-    const std::size_t end = std::min(options.find(',', begin), options.size());
-    const std::string key = options.substr(begin, options.find('=', begin) - begin);
+  for (const std::string& option : CLI::detail::split(options, ',')) {
+    const std::string key = option.substr(0, option.find('='));
     if (help.find(key + "=") == std::string_view::npos)
       throw data::ArgumentError(
           fmt::format("{} takes any option without a word, so nothing says that it knows '{}': let it refuse "
                       "what it does not know, or name it in its options text",
                       subject.name, key));
-    begin = end + 1;
   }
 }
 
@@ -80,28 +78,23 @@ void add_subject_settings(CLI::App& command, std::vector<std::string>& options) 
 }
 
 void add_subject_options(CLI::App& command, SubjectArguments& a) {
-  const std::string group = "Subjects of your own (libraries and programs run in a process of their own)";
   add_value(command, "--program", a.program, "COMMAND",
             "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
-            "of verify/host/isolation/PROTOCOL.md")
-      ->group(group);
-  command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too")
-      ->group(group);
+            "of verify/host/isolation/PROTOCOL.md");
+  command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too");
   add_number(command, "--timeout", a.limits.seconds, 0.001, 86400.0,
              "Seconds a process may take for one answer")
-      ->check(kFinite)
-      ->group(group);
+      ->check(kFinite);
   add_number(command, "--memory", a.limits.memory_mib, std::int64_t{1}, std::int64_t{1} << 24,
-             "MiB of memory a process may take, and its answer")
-      ->group(group);
+             "MiB of memory a process may take, and its answer");
   add_words(command, "--containment", a.limits.namespaces, {{"auto", true}, {"subreaper", false}},
             "How a process is held, so that nothing it starts is left behind: auto is a PID namespace of its "
-            "own where the system allows that, and elsewhere a subreaper")
-      ->group(group);
+            "own where the system allows that, and elsewhere a subreaper");
   add_value(command, "--witness-folder", a.witness_folder, "DIR",
             "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
-      ->capture_default_str()
-      ->group(group);
+      ->capture_default_str();
+  group(command, "Subjects of your own (libraries and programs run in a process of their own)",
+        {"--program", "--isolate", "--timeout", "--memory", "--containment", "--witness-folder"});
 }
 
 void take_program(const SubjectArguments& a, std::string& subject, std::vector<std::string>& meshes) {

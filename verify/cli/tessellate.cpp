@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -48,42 +47,31 @@ const Words<bool> kEngines{{"row-stream", false}, {"sliding-window", true}};
 
 // The numbers of "a,b,c"; throws CLI::ValidationError unless there are `count` of them and nothing else.
 std::vector<double> numbers(const std::string& text, char separator, std::size_t count, const char* what) {
-  std::vector<double> result;
-  const char* at = text.c_str();
-  for (bool more = true; more;) {
-    char* end = nullptr;
-    const double value = std::strtod(at, &end);
-    if (end == at || !std::isfinite(value)) break;
-    result.push_back(value);
-    more = *end == separator;
-    at = more ? end + 1 : end;
-  }
-  if (*at != '\0' || result.size() != count)
-    throw CLI::ValidationError(what, fmt::format("cannot read '{}'", text));
+  const std::vector<std::string> words = CLI::detail::split(text, separator);
+  std::vector<double> result(words.size());
+  bool read = words.size() == count && !text.ends_with(separator);
+  for (std::size_t k = 0; read && k < count; ++k)
+    read = CLI::detail::lexical_cast(words[k], result[k]) && std::isfinite(result[k]);
+  if (!read) throw CLI::ValidationError(what, fmt::format("cannot read '{}'", text));
   return result;
 }
 
 fast::Camera camera(const TessellateArguments& a) {
   fast::Camera result = a.view;
   if (!a.camera.empty()) {
-    std::vector<fast::Point3*> points{&result.eye, &result.target, &result.up};
-    std::string rest = a.camera;
-    std::size_t i = 0;
-    for (bool more = true; more; ++i) {
-      const std::size_t colon = rest.find(':');
-      more = colon != std::string::npos;
-      if (i == points.size())
-        throw CLI::ValidationError("--camera", fmt::format("cannot read '{}'", a.camera));
-      const auto p = numbers(rest.substr(0, colon), ',', 3, "--camera");
-      *points[i] = {p[0], p[1], p[2]};
-      rest = more ? rest.substr(colon + 1) : "";
+    const std::vector<fast::Point3*> points{&result.eye, &result.target, &result.up};
+    const std::vector<std::string> given = CLI::detail::split(a.camera, ':');
+    if (given.size() > points.size() || a.camera.ends_with(':'))
+      throw CLI::ValidationError("--camera", fmt::format("cannot read '{}'", a.camera));
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const auto p = numbers(given[k], ',', 3, "--camera");
+      *points[k] = {p[0], p[1], p[2]};
     }
   }
   const auto size = numbers(a.viewport, 'x', 2, "--viewport");
-  for (const double s : size) {
+  for (const double s : size)
     if (s != std::floor(s) || std::abs(s) > 1e6)
       throw CLI::ValidationError("--viewport", "must be whole pixels");
-  }
   result.width = static_cast<int>(size[0]);
   result.height = static_cast<int>(size[1]);
   return result;
@@ -134,18 +122,15 @@ nlohmann::ordered_json report(const TessellateArguments& a, const MeshScheme& ch
 }
 
 std::string summary(const TessellateArguments& a, const fast::FrameStats& s, const Timings& t) {
-  std::string text =
-      fmt::format("{}{}: {} faces: {} pairs, {} singletons, {} fans, {} culled; {} triangles, {} vertices",
-                  a.mesh, a.output.empty() ? "" : " -> " + a.output, s.faces, s.pairs, s.singletons, s.fans,
-                  s.culled, s.triangles, s.vertices);
-  if (s.zero_normals > 0) text += fmt::format(", {} substitute normals", s.zero_normals);
-  text += "\n";
-  text += fmt::format(
+  return fmt::format(
+      "{}{}: {} faces: {} pairs, {} singletons, {} fans, {} culled; {} triangles, {} vertices{}\n"
       "milliseconds: read {:.1f}, prepare {:.1f}, heuristics {:.1f}, pairing {:.1f}, planning {:.1f}, "
       "evaluation {:.1f}, write {:.1f}\n",
-      1e3 * t.read, 1e3 * t.prepare, 1e3 * s.seconds_heuristics, 1e3 * s.seconds_pairing,
-      1e3 * s.seconds_planning, 1e3 * s.seconds_evaluation, 1e3 * t.write);
-  return text;
+      a.mesh, a.output.empty() ? "" : " -> " + a.output, s.faces, s.pairs, s.singletons, s.fans, s.culled,
+      s.triangles, s.vertices,
+      s.zero_normals > 0 ? fmt::format(", {} substitute normals", s.zero_normals) : "", 1e3 * t.read,
+      1e3 * t.prepare, 1e3 * s.seconds_heuristics, 1e3 * s.seconds_pairing, 1e3 * s.seconds_planning,
+      1e3 * s.seconds_evaluation, 1e3 * t.write);
 }
 
 struct Outcome {
@@ -166,17 +151,6 @@ class Lap {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-template <class Engine>
-Outcome run(Engine&& tessellator, const fast::DepthOptions& options, const fast::Camera& view, Lap& lap,
-            Timings& timings) {
-  timings.prepare = lap();
-  Outcome out;
-  out.stats = tessellator.frame(options, view, out.mesh);
-  out.depth = tessellator.last_pairing().depth;
-  lap();
-  return out;
-}
-
 Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::DepthOptions& options,
             const fast::Camera& view, Progress& progress, Lap& lap, Timings& timings) {
   const data::ControlMesh& mesh = opened.mesh;
@@ -184,12 +158,20 @@ Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::
   engine.scheme = opened.chosen.scheme;
   engine.threads = std::min(engine.threads, tbb::info::default_concurrency());
   engine.max_depth = a.max_depth.value_or(std::max(engine.max_depth, a.depths.depth));
-  if (a.sliding_window) return run(fast::Tessellator<float>(mesh, engine), options, view, lap, timings);
+  Outcome out;
+  const auto frame = [&](auto&& tessellator) {
+    timings.prepare = lap();
+    out.stats = tessellator.frame(options, view, out.mesh);
+    out.depth = tessellator.last_pairing().depth;
+    lap();
+    return out;
+  };
+  if (a.sliding_window) return frame(fast::Tessellator<float>(mesh, engine));
   fast::row_stream::StreamTessellator stream(mesh, engine);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
   stream.on_progress(
       [&](std::size_t done, std::size_t total) { progress.show(total + done, 3 * total, text); });
-  return run(stream, options, view, lap, timings);
+  return frame(stream);
 }
 
 int tessellate(const TessellateArguments& a) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "verify/cli/screen.h"
 #include "verify/shard/shard.h"
@@ -65,6 +66,16 @@ std::string file_digest(const std::string& file);
 /// The report, a JSON object, with what it is of in front ("attested": the digests of this program, of the plan and, as
 /// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/shard.h).
 std::string attested(std::string report, const nlohmann::json& plan);
+
+/// What limitcheck prove is asked for, which hands it over to limitcheck-prove.
+struct ProveRequest {
+  std::string scheme = "loop", valences, kernel = "all", set = "standard";
+  int depth = 0;
+  bool each = false;
+  ShardArguments shard;
+  std::vector<std::string> parts;  // of limitcheck merge
+};
+void add_prove(CLI::App& app, const std::function<void(const ProveRequest&)>& prove);
 
 /// The report of limitcheck mutants; to `json` it goes as with --json. Returns the exit code.
 int report_mutants(const verify::PartReport& done, const std::string& json);

@@ -15,7 +15,6 @@
 #include "data/validate.h"
 #include "verify/host/host_memory.h"
 #include "verify/host/matching.h"
-#include "verify/host/refined_complex.h"
 #include "verify/host/subject_call.h"
 
 namespace limitcheck::verify {

@@ -11,10 +11,9 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
-
-#include "verify/host/refined_complex.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -322,14 +321,16 @@ Matching match(const RefinedComplex& expected, const Bare& t) {
   std::int64_t triangles = 0;
   for (std::int64_t c = 0; c < expected.cells.count(); ++c) triangles += expected.cells.size(c) - 2;
   const std::int64_t vertices = expected.vertices;
-  if (std::ssize(t.triangles) != triangles) {
-    result.failure = fmt::format("{} triangles were delivered; the mesh has {} at depth {}",
-                                 t.triangles.size(), triangles, depth);
+  const auto failed = [&](std::string why) {
+    result.failure = std::move(why);
     return result;
-  }
+  };
+  if (std::ssize(t.triangles) != triangles)
+    return failed(fmt::format("{} triangles were delivered; the mesh has {} at depth {}", t.triangles.size(),
+                              triangles, depth));
   std::vector<std::int32_t> number(t.vertices);
   std::int64_t count = t.vertices;
-  for (std::int64_t v = 0; v < t.vertices; ++v) number[v] = static_cast<std::int32_t>(v);
+  std::iota(number.begin(), number.end(), 0);
   if (count != vertices) {
     number = weld(t, &count);
     result.welded = true;
@@ -337,23 +338,17 @@ Matching match(const RefinedComplex& expected, const Bare& t) {
   std::vector<std::int32_t> any(count, -1);  // a vertex of each number
   for (std::int64_t v = 0; v < t.vertices; ++v) any[number[v]] = static_cast<std::int32_t>(v);
   if (count < vertices && coincide(expected.about)) {
-    result.failure =
-        "points of the control mesh lie at one place, and so do points that were delivered apart";
     result.not_judged = true;
-    return result;
+    return failed("points of the control mesh lie at one place, and so do points that were delivered apart");
   }
-  if (count != vertices) {
-    result.failure = fmt::format("{} vertices were delivered, at {} places; the mesh has {} at depth {}",
-                                 t.vertices, count, vertices, depth);
-    return result;
-  }
+  if (count != vertices)
+    return failed(fmt::format("{} vertices were delivered, at {} places; the mesh has {} at depth {}",
+                              t.vertices, count, vertices, depth));
   auto delivered = cells_of(expected.cells, t, number, count);
-  if (!delivered) {
-    result.failure = fmt::format(
+  if (!delivered)
+    return failed(fmt::format(
         "the triangles are no oriented manifold{}",
-        triangles != expected.cells.count() ? " of quads whose two triangles follow one another" : "");
-    return result;
-  }
+        triangles != expected.cells.count() ? " of quads whose two triangles follow one another" : ""));
   const auto position = [&](std::int32_t v) { return t.position(any[v]); };
   auto laying = std::make_unique<Laying>(expected, *delivered);
   const double distance = lay_all(expected, *delivered, position, *laying, result.ways);
@@ -362,10 +357,8 @@ Matching match(const RefinedComplex& expected, const Bare& t) {
   auto other = std::make_unique<Laying>(expected, mirrored);
   std::int64_t ways = 1;
   const double far = lay_all(expected, mirrored, position, *other, ways);
-  if (far == kNowhere && distance == kNowhere) {
-    result.failure = fmt::format("the triangles are not connected as those of the mesh at depth {}", depth);
-    return result;
-  }
+  if (far == kNowhere && distance == kNowhere)
+    return failed(fmt::format("the triangles are not connected as those of the mesh at depth {}", depth));
   if (far < distance) {
     result.reversed = true;
     result.ways = ways;

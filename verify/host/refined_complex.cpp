@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "verify/host/refined_complex.h"
-
 #include <algorithm>
 #include <initializer_list>
 #include <unordered_map>
 #include <utility>
 
+#include "verify/host/matching.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {

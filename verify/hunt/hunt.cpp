@@ -36,8 +36,8 @@ Hunt::Hunt(AuditSubject subject, HuntPlan plan, HuntOptions options)
     : subject_(std::move(subject)),
       plan_(std::move(plan)),
       options_(std::move(options)),
-      quick_(-1, options_.threads),
-      thorough_(-1, options_.threads, {}, Level::kThorough) {}
+      quick_(-1, 1),
+      thorough_(-1, 1, {}, Level::kThorough) {}
 
 AuditSubject Hunt::subject(const HuntCase& at) const {
   AuditSubject subject = subject_;
@@ -96,8 +96,7 @@ void Hunt::shrink_finding(HuntFinding& f) {
     // Each attempt with a subject that hangs takes as long as it is given.
     const int attempts =
         row.status == Status::kTimeout ? std::min(options_.attempts, kOfHangs) : options_.attempts;
-    const auto [small, again, relation] =
-        shrink(subject(at), at.mesh, options_.threads, row, {.attempts = attempts});
+    const auto [small, again, relation] = shrink(subject(at), at.mesh, 1, row, {.attempts = attempts});
     if (!again) return;
     f.faces = static_cast<std::int64_t>(small.mesh.mesh.faces.size());
     f.depth = again->depth;

@@ -78,7 +78,6 @@ class HuntPlan {
 };
 
 struct HuntOptions {
-  int threads = 1;
   int attempts = 2000;              // to shrink a finding; 0: it is not shrunk
   std::filesystem::path witnesses;  // folder for the small meshes; empty: none is written
 };

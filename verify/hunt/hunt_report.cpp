@@ -200,7 +200,7 @@ void HuntReport::add_again(const nlohmann::json& added) try {
   throw data::ArgumentError(fmt::format("this is no journal of a hunt: {}", error.what()));
 }
 
-std::string to_json(const HuntReport& r, bool list_of_kinds) {
+std::string to_json(const HuntReport& r) {
   Json findings = Json::array();
   for (const HuntFinding* f : r.by_severity()) findings.push_back(to_json(*f));
   const Json json{{"program", "limitcheck hunt"},
@@ -214,7 +214,7 @@ std::string to_json(const HuntReport& r, bool list_of_kinds) {
                   {"cases", r.cases},
                   {"next", r.next},
                   {"judged", r.judged},
-                  {"edge_kinds", list_of_kinds || r.shard.count > 1 ? Json(r.kinds) : Json(r.kinds.size())},
+                  {"edge_kinds", r.shard.count > 1 ? Json(r.kinds) : Json(r.kinds.size())},
                   {"findings", findings},
                   {"seconds", r.seconds},
                   {"incomplete", r.incomplete},

@@ -96,8 +96,8 @@ struct HuntReport {
 };
 
 /// As JSON. Keys: program, version, subject, seed, asked, schemes, varied, shard, cases, next, judged, edge_kinds
-/// (a list in a shard or if asked for, else their number), findings, seconds, incomplete.
-std::string to_json(const HuntReport& report, bool list_of_kinds = false);
+/// (a list in a shard, else their number), findings, seconds, incomplete.
+std::string to_json(const HuntReport& report);
 /// Throws data::ArgumentError: the text is no report of a hunt.
 HuntReport read_hunt_report(const std::string& text);
 

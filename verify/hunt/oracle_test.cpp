@@ -39,7 +39,7 @@ TEST(Oracle, ItsCertificatesAgreeWithEachOther) {
 
 TEST(Oracle, IsHuntedAsOthersAre) {
   HuntReport report{.subject = "oracle"};
-  Hunt hunt({&oracle_subject(), ""}, plan(2), {1, 0, ""});
+  Hunt hunt({&oracle_subject(), ""}, plan(2), {0, ""});
   for (std::uint64_t n = 0; n < 8; ++n) report.add(hunt.look(n).value());
   EXPECT_EQ(report.judged, 8);
   EXPECT_TRUE(report.findings.empty());

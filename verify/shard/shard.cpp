@@ -26,8 +26,23 @@
 namespace limitcheck::verify {
 namespace {
 
-std::string digest_of(const nlohmann::json& object) {
-  return digest(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+using Json = nlohmann::json;
+
+std::string digest_of(const Json& object) {
+  return digest(object.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Json to_json(const Plan& plan) {
+  return {{"program", plan.program},
+          {"plan", plan.what},
+          {"units", plan.units},
+          {"together", plan.together},
+          {"shard", plan.shard.text()}};
+}
+
+int opened(const std::filesystem::path& file, int flags) {
+  // Not through a link: it would write into a file that is none of ours.
+  return open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
 }
 
 }  // namespace
@@ -63,8 +78,6 @@ void require_all(const std::vector<Shard>& shards) {
       throw data::ArgumentError(fmt::format("shard {} is missing", Shard{k, count}.text()));
 }
 
-using Json = nlohmann::json;
-
 bool PartReport::is_complete() const {
   // Not a walk through the units of the plan: a file that somebody wrote may tell of 10^18.
   return results.size() == plan.size() && std::all_of(results.begin(), results.end(), [&](const auto& r) {
@@ -75,11 +88,13 @@ bool PartReport::is_complete() const {
 std::string to_json(const PartReport& part) {
   Json results = Json::array();
   for (const auto& [unit, result] : part.results) results.push_back({unit, result});
-  const Json json{
-      {"program", part.plan.program},    {"plan", part.plan.what},          {"units", part.plan.units},
-      {"together", part.plan.together},  {"shard", part.plan.shard.text()}, {"seconds", part.seconds},
-      {"containment", part.containment}, {"printed", part.printed},         {"incomplete", part.incomplete},
-      {"receipts", part.receipts},       {"results", std::move(results)}};
+  Json json = to_json(part.plan);
+  json.update({{"seconds", part.seconds},
+               {"containment", part.containment},
+               {"printed", part.printed},
+               {"incomplete", part.incomplete},
+               {"receipts", part.receipts},
+               {"results", std::move(results)}});
   return sealed(json);
 }
 
@@ -109,11 +124,9 @@ PartReport read_part(const std::string& text) try {
 
 PartReport joined(const std::vector<PartReport>& parts) {
   std::vector<Shard> shards;
-  for (const PartReport& p : parts) shards.push_back(p.plan.shard);
-  if (shards.empty()) require_all(shards);
-  PartReport whole;
-  const Plan& first = parts.front().plan;
   for (const PartReport& p : parts) {
+    shards.push_back(p.plan.shard);
+    const Plan& first = parts.front().plan;
     const auto refuse = [&](const std::string& why) {
       throw data::ArgumentError(fmt::format("shard {} {}", p.plan.shard.text(), why));
     };
@@ -124,11 +137,12 @@ PartReport joined(const std::vector<PartReport>& parts) {
     if (!p.is_complete()) refuse("is incomplete");
   }
   require_all(shards);
-  whole.plan = first, whole.plan.shard = {};
-  std::vector<const PartReport*> in_order(parts.size());
+  PartReport whole;
+  whole.plan = parts.front().plan, whole.plan.shard = {};
+  std::map<std::uint64_t, const PartReport*> in_order;
   for (const PartReport& p : parts) in_order[p.plan.shard.index] = &p;
-  for (const PartReport* at : in_order) {
-    const PartReport& p = *at;
+  for (const auto& [index, part] : in_order) {
+    const PartReport& p = *part;
     whole.results.insert(p.results.begin(), p.results.end());
     whole.seconds += p.seconds;
     whole.printed += p.printed;
@@ -138,31 +152,12 @@ PartReport joined(const std::vector<PartReport>& parts) {
   return whole;
 }
 
-namespace {
-
-using Json = nlohmann::json;
-
-int opened(const std::filesystem::path& file, int flags) {
-  // Not through a link: it would write into a file that is none of ours.
-  return open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0666);
-}
-
-}  // namespace
-
 std::size_t Plan::size() const {
   const std::size_t blocks = units / together + (units % together != 0 ? 1 : 0);
   if (shard.index >= blocks) return 0;
   const std::size_t mine = (blocks - 1 - shard.index) / shard.count + 1;
   const bool last = shard.has(blocks - 1);  // which may be a smaller one
   return last ? (mine - 1) * together + (units - (blocks - 1) * together) : mine * together;
-}
-
-std::string Journal::first_line() const {
-  return sealed(Json{{"program", plan_.program},
-                     {"plan", plan_.what},
-                     {"units", plan_.units},
-                     {"together", plan_.together},
-                     {"shard", plan_.shard.text()}});
 }
 
 Journal::Journal(Plan plan, std::filesystem::path file, bool resume, bool remember)
@@ -190,7 +185,7 @@ Journal::Journal(Plan plan, std::filesystem::path file, bool resume, bool rememb
   if (resume)
     read();
   else
-    write(first_line());
+    write(sealed(to_json(plan_)));
 }
 
 void Journal::read() {
@@ -200,7 +195,7 @@ void Journal::read() {
   struct stat is {};
   if (fstat(fileno(out_.get()), &is) != 0 || !S_ISREG(is.st_mode)) refuse(" is no file");
   const std::string text = data::io::whole_content(file_);
-  const std::string first = first_line();
+  const std::string first = sealed(to_json(plan_));
   if (!text.starts_with(first))
     refuse(" is of another plan: of other subjects, meshes, options or another shard");
   // What a kill has torn is the end of the file, behind the last line that is whole; whole lines are true.
@@ -220,6 +215,12 @@ void Journal::read() {
     }
   if (ftruncate(fileno(out_.get()), static_cast<off_t>(begin)) != 0) refuse(": it cannot be written");
   std::fseek(out_.get(), 0, SEEK_END);
+}
+
+void Journal::reload() {
+  if (!std::filesystem::exists(file_)) throw data::ArgumentError(file_.string() + " cannot be written");
+  results_.clear();
+  read();
 }
 
 void Journal::write(const std::string& line) {

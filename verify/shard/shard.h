@@ -72,13 +72,15 @@ class Journal {
   /// that was read has there, or null.
   void attach(std::function<nlohmann::json()> receipts) { receipts_ = std::move(receipts); }
   const nlohmann::json& receipts_before() const { return before_; }
+  /// Reads the file again, which other processes may have added to. Throws data::ArgumentError: as with `resume`, or the
+  /// file could not be written.
+  void reload();
   /// All that is there.
   const std::map<std::size_t, nlohmann::json>& results() const { return results_; }
   /// Deletes the file.
   void remove();
 
  private:
-  std::string first_line() const;
   void read();
   void write(const std::string& line);
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "data/shapes.h"
+#include "data/test_support/assertions.h"
 #include "verify/host/host.h"
-#include "verify/host/isolation/launcher.h"
 #include "verify/host/isolation/remote_subject.h"
 #include "verify/host/isolation/test_subjects/behaviours_table.h"
 
@@ -101,37 +101,45 @@ class Behaviours : public testing::TestWithParam<bool> {
     fs::remove_all(folder_);
   }
 
-  void expect_all(RemoteSubject::Kind kind, const std::string& what, const std::vector<Behaviour>& table) {
-    const std::ptrdiff_t open_before = open_files();
-    for (const Behaviour& b : table) {
-      // What hangs need not hang long. What does not has all the time it needs on a busy machine.
-      const bool hangs = std::string(b.outcome).find("timeout") != std::string::npos;
-      settings_.limits.seconds = hangs ? 0.4 : 60;
-      const bool program = kind == RemoteSubject::Kind::kProgram;
-      const RemoteSubject remote(kind, program ? "exec " + what + " " + b.how : what, settings_);
-      const Outcome got = outcome_of(remote, program ? "" : std::string("behaviour=") + b.how);
-      EXPECT_NE(std::string(b.outcome).find(got.word), std::string::npos)
-          << b.how << ": " << got.word << ", not " << b.outcome << ": " << got.message;
-      if (got.word == std::string(b.outcome).substr(0, got.word.size())) {
-        EXPECT_NE(got.message.find(b.words), std::string::npos) << b.how << ": " << got.message;
+  void expect_all(RemoteSubject::Kind kind, const std::string& what,
+                  const std::vector<BehaviourGroup>& table) {
+    open_before_ = open_files();
+    for (const BehaviourGroup& b : table)
+      for (const std::string how : b.how) {
+        SCOPED_TRACE(how);
+        expect(kind, what, how, b.outcome, b.words);
       }
-      EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << b.how << " leaves a child";
-      EXPECT_EQ(open_files(), open_before) << b.how << " leaves a pipe";
-      EXPECT_TRUE(fs::is_empty(folder_)) << b.how << " leaves a file";
-      // They are dead when the call returns, or doomed: the kernel may take its time to bury them.
-      std::vector<std::string> left = strays();
-      for (int k = 0; k < 100 && !left.empty(); ++k, left = strays())
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      EXPECT_EQ(left, std::vector<std::string>{}) << b.how;
+  }
+  void expect(RemoteSubject::Kind kind, const std::string& what, const std::string& how,
+              const std::string& outcome, const char* words) {
+    // What hangs need not hang long. What does not has all the time it needs on a busy machine.
+    settings_.limits.seconds = says(outcome, "timeout") ? 0.4 : 60;
+    const bool program = kind == RemoteSubject::Kind::kProgram;
+    const RemoteSubject remote(kind, program ? "exec " + what + " " + how : what, settings_);
+    const Outcome got = outcome_of(remote, program ? "" : "behaviour=" + how);
+    EXPECT_TRUE(says(outcome, got.word)) << got.message;
+    if (outcome.starts_with(got.word)) {
+      EXPECT_TRUE(says(got.message, words));
     }
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "leaves a child";
+    EXPECT_EQ(open_files(), open_before_) << "leaves a pipe";
+    EXPECT_TRUE(fs::is_empty(folder_)) << "leaves a file";
+    expect_no_strays();
+  }
+  // They are dead when the call returns, or doomed: the kernel may take its time to bury them.
+  static void expect_no_strays() {
+    std::vector<std::string> left = strays();
+    for (int k = 0; k < 200 && !left.empty(); ++k, left = strays())
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(left, std::vector<std::string>{});
   }
 
   fs::path folder_, before_;
   IsolationSettings settings_;
+  std::ptrdiff_t open_before_ = 0;
 };
 
 TEST_P(Behaviours, OfLibrariesAreContainedAndToldForWhatTheyAre) {
-  EXPECT_GE(library_behaviours().size(), 100U);
   for (const char* interface : {"1", "2"}) {
     SCOPED_TRACE(interface);
     expect_all(RemoteSubject::Kind::kLibrary,
@@ -141,7 +149,6 @@ TEST_P(Behaviours, OfLibrariesAreContainedAndToldForWhatTheyAre) {
 }
 
 TEST_P(Behaviours, OfProgramsAreContainedAndToldForWhatTheyAre) {
-  EXPECT_GE(program_behaviours().size(), 40U);
   expect_all(RemoteSubject::Kind::kProgram, LIMITCHECK_TEST_SUBJECTS "/behaviours", program_behaviours());
 }
 
@@ -158,10 +165,8 @@ TEST_P(Behaviours, EndWithTheHostHoweverItEnds) {
       raise(SIGKILL);
     }
     waitpid(host, nullptr, 0);
-    std::vector<std::string> left = strays();
-    for (int k = 0; k < 200 && !left.empty(); ++k, left = strays())
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_EQ(left, std::vector<std::string>{}) << launched;
+    SCOPED_TRACE(launched);
+    expect_no_strays();
   }
 }
 

@@ -15,7 +15,6 @@
 #include <thread>
 #include <utility>
 
-#include "verify/host/isolation/launcher.h"
 #include "verify/host/isolation/process_tree.h"
 #include "verify/interrupt/interrupt.h"
 
@@ -85,32 +84,32 @@ void ChildProcess::start(const std::vector<std::string>& command, Containment co
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
 
-  std::array<std::array<int, 2>, 5> pipes{};
-  for (auto& ends : pipes) ends = {-1, -1};
-  const auto close_all = [&pipes] {
-    for (const auto& ends : pipes)
-      for (const int fd : ends)
-        if (fd >= 0) ::close(fd);
+  KeeperPipes theirs;
+  const auto close_theirs = [&theirs] {
+    for (const int fd : theirs.end)
+      if (fd >= 0) ::close(fd);
   };
-  for (auto& ends : pipes)
+  for (const Pipe pipe : kPipes) {
+    std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-      close_all();
+      close_theirs();
+      kill_and_reap();
       refuse("cannot make a pipe");
     }
+    const bool they_read = pipe == kIn || pipe == kLifeline;
+    theirs.end[pipe] = ends[they_read ? 0 : 1];
+    pipe_[pipe] = ends[they_read ? 1 : 0];
+    fcntl(pipe_[pipe], F_SETFL, O_NONBLOCK);
+  }
   containment_ = containment;
-  keeper_ =
-      start_keeper(containment, argv.data(),
-                   {{pipes[kIn][0], pipes[kOut][1], pipes[kErr][1]}, pipes[kLifeline][0], pipes[kNews][1]});
-  if (keeper_ < 0) {
-    const int error = errno;
-    close_all();
+  keeper_ = start_keeper(containment, argv.data(), theirs);
+  const int error = errno;
+  close_theirs();
+  if (!alive()) {
+    kill_and_reap();
     errno = error;
     return;
   }
-  pipe_ = {pipes[kIn][1], pipes[kOut][0], pipes[kErr][0], pipes[kLifeline][1], pipes[kNews][0]};
-  for (const int fd : {pipes[kIn][0], pipes[kOut][1], pipes[kErr][1], pipes[kLifeline][0], pipes[kNews][1]})
-    ::close(fd);
-  for (const int fd : pipe_) fcntl(fd, F_SETFL, O_NONBLOCK);
   start_clock();
   // The first message of the keeper says whether there is a child.
   pollfd news{pipe_[kNews], POLLIN, 0};
@@ -180,7 +179,7 @@ void ChildProcess::kill_and_reap() {
     keeper_ = -1;
     drain_errors();
   }
-  for (const Pipe pipe : {kIn, kOut, kErr, kLifeline, kNews}) close_pipe(pipe);
+  for (const Pipe pipe : kPipes) close_pipe(pipe);
 }
 
 void ChildProcess::drain_errors() {

@@ -68,7 +68,9 @@ class ChildProcess : public protocol::Source {
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum Pipe : std::size_t { kIn, kOut, kErr, kLifeline, kNews };
+  using enum KeeperPipes::Pipe;
+  using Pipe = KeeperPipes::Pipe;
+  static constexpr std::array kPipes{kIn, kOut, kErr, kLifeline, kNews};
 
   /// Waits until the pipe is ready, at most `kTick`; keeps reading standard error; checks the limits.
   void wait_for(Pipe pipe, short events);

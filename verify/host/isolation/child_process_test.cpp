@@ -13,8 +13,6 @@
 #include <functional>
 #include <string>
 
-#include "verify/host/isolation/launcher.h"
-
 namespace {
 
 using namespace limitcheck::verify;

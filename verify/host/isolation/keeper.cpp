@@ -78,11 +78,11 @@ bool mount_proc() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);
   for (int k = 0; k < 3; ++k)
-    if (dup2(pipes.standard[k], k) < 0) {
-      tell(pipes.news, News::kNotStarted, errno);
+    if (dup2(pipes.end[k], k) < 0) {
+      tell(pipes.end[KeeperPipes::kNews], News::kNotStarted, errno);
       _exit(126);
     }
-  fcntl(pipes.news, F_SETFD, FD_CLOEXEC);
+  fcntl(pipes.end[KeeperPipes::kNews], F_SETFD, FD_CLOEXEC);
   const rlimit no_core{1, 1};  // 1, not 0: a program that takes core dumps from a pipe would get them with 0
   setrlimit(RLIMIT_CORE, &no_core);
   for (const int signal : kIgnored) std::signal(signal, SIG_DFL);
@@ -91,7 +91,7 @@ bool mount_proc() {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   execv(argv[0], argv);
-  tell(pipes.news, News::kNotStarted, errno);
+  tell(pipes.end[KeeperPipes::kNews], News::kNotStarted, errno);
   _exit(127);
 }
 
@@ -150,7 +150,7 @@ void sweep(pid_t child) {
   setsid();
   for (const int signal : kIgnored) std::signal(signal, SIG_IGN);
   // It keeps no other descriptors: the lifeline of another child, if open here, would keep that child alive.
-  std::array<int, 5> own{pipes.standard[0], pipes.standard[1], pipes.standard[2], pipes.lifeline, pipes.news};
+  std::array<int, 5> own = pipes.end;
   std::sort(own.begin(), own.end());
   unsigned next = 3;
   for (const int fd : own) {
@@ -160,7 +160,7 @@ void sweep(pid_t child) {
   close_range(next, ~0U, 0);
 
   if (in_namespace && ((mapped != nullptr && !keep_identity(*mapped)) || !mount_proc())) {
-    tell(pipes.news, News::kGivesUp, errno);
+    tell(pipes.end[KeeperPipes::kNews], News::kGivesUp, errno);
     end();
   }
   prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -174,11 +174,11 @@ void sweep(pid_t child) {
   const pid_t child = static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0));
   if (child == 0) become_child(argv, pipes);
   if (child < 0) {
-    tell(pipes.news, News::kGivesUp, errno);
+    tell(pipes.end[KeeperPipes::kNews], News::kGivesUp, errno);
     end();
   }
-  tell(pipes.news, News::kRunning, 0);
-  for (const int fd : pipes.standard) close(fd);
+  tell(pipes.end[KeeperPipes::kNews], News::kRunning, 0);
+  for (int k = 0; k < 3; ++k) close(pipes.end[k]);
   for (const int fd : {0, 1, 2}) close(fd);
 
   for (bool host_lives = true; host_lives;) {
@@ -186,10 +186,10 @@ void sweep(pid_t child) {
     for (pid_t gone = 0; (gone = waitpid(-1, &status, WNOHANG)) > 0;) {
       if (gone != child) continue;
       if (!in_namespace) sweep(child);
-      tell(pipes.news, News::kEnded, status);
+      tell(pipes.end[KeeperPipes::kNews], News::kEnded, status);
       end();  // and with the first process of a namespace all others end
     }
-    std::array<pollfd, 2> awaited{{{pipes.lifeline, POLLIN, 0}, {signals, POLLIN, 0}}};
+    std::array<pollfd, 2> awaited{{{pipes.end[KeeperPipes::kLifeline], POLLIN, 0}, {signals, POLLIN, 0}}};
     poll(awaited.data(), awaited.size(), signals < 0 ? 10 : -1);
     std::array<signalfd_siginfo, 8> taken{};
     if (read(signals, taken.data(), sizeof taken) < 0 && errno != EAGAIN && errno != EINTR) end();

@@ -13,6 +13,7 @@
 #include <sys/types.h>
 
 #include <array>
+#include <cstddef>
 
 namespace limitcheck::verify {
 
@@ -31,15 +32,30 @@ struct News {
   int value = 0;
 };
 
+/// The ends of pipes that keeper and child have, in this order.
 struct KeeperPipes {
-  std::array<int, 3> standard;  // the child's standard input, output and error
-  int lifeline;                 // for reading: the keeper ends when nobody holds the other end
-  int news;                     // for writing
+  enum Pipe : std::size_t {
+    kIn,  // the child's standard input, output and error
+    kOut,
+    kErr,
+    kLifeline,  // for reading: the keeper ends when nobody holds the other end
+    kNews       // for writing
+  };
+  std::array<int, 5> end{-1, -1, -1, -1, -1};
 };
 
 /// Starts a keeper that runs argv[0] with these arguments. Returns its process number, or -1 with errno. In a
 /// namespace it ends with the thread that is its parent, too. It keeps no descriptors but these pipes.
 ///   as_sibling   its parent is that of this process
 pid_t clone_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes, bool as_sibling);
+
+/// From now on keepers are started by a launcher, which this forks: call it early. The system copies the tables of all
+/// pages of a process that it clones, and this program grows large; the launcher is a copy of it from its first moments, and
+/// clones itself instead. Keepers have the environment and the folder that this program has now, and end with the thread that
+/// calls it. A process that is forked later gets a launcher of its own with its first keeper.
+void use_launcher();
+
+/// Starts a keeper, which is a child of this process, as clone_keeper() does.
+pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes);
 
 }  // namespace limitcheck::verify

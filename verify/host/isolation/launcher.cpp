@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/host/isolation/launcher.h"
-
+// What starts keepers: a copy of this program from its first moments.
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -15,11 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "verify/host/isolation/keeper.h"
+
 namespace limitcheck::verify {
 namespace {
 
 constexpr std::size_t kLongest = 1 << 16;  // a message of a socket
-using Descriptors = std::array<int, 5>;    // KeeperPipes in the order of its members
 
 struct Answer {
   pid_t keeper;
@@ -29,7 +29,7 @@ struct Answer {
 // A message with room for descriptors.
 struct Message {
   iovec text;
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Descriptors))> room{};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(KeeperPipes))> room{};
   msghdr header{};
 
   Message(char* data, std::size_t size) : text{data, size} {
@@ -52,17 +52,15 @@ struct Message {
     const ssize_t n = recvmsg(orders, &order.header, MSG_CMSG_CLOEXEC);
     if (n < 0 && errno == EINTR) continue;
     const cmsghdr* const sent = CMSG_FIRSTHDR(&order.header);
-    if (n <= 1 || sent == nullptr || sent->cmsg_len != CMSG_LEN(sizeof(Descriptors))) _exit(0);
-    Descriptors fds;
-    std::memcpy(fds.data(), CMSG_DATA(sent), sizeof fds);
+    if (n <= 1 || sent == nullptr || sent->cmsg_len != CMSG_LEN(sizeof(KeeperPipes))) _exit(0);
+    KeeperPipes pipes;
+    std::memcpy(&pipes, CMSG_DATA(sent), sizeof pipes);
     std::vector<char*> argv;
     for (char* word = bytes.data() + 1; word < bytes.data() + n; word += std::strlen(word) + 1)
       argv.push_back(word);
     argv.push_back(nullptr);
-    Answer answer{clone_keeper(static_cast<Containment>(bytes[0]), argv.data(),
-                               {{fds[0], fds[1], fds[2]}, fds[3], fds[4]}, true),
-                  errno};
-    for (const int fd : fds) close(fd);
+    Answer answer{clone_keeper(static_cast<Containment>(bytes[0]), argv.data(), pipes, true), errno};
+    for (const int fd : pipes.end) close(fd);
     if (send(orders, &answer, sizeof answer, MSG_NOSIGNAL) != sizeof answer) _exit(0);
   }
 }
@@ -97,9 +95,8 @@ bool ask(Containment containment, char* const* argv, const KeeperPipes& pipes, A
   if (order.size() > kLongest) return false;
   Message message(order.data(), order.size());
   cmsghdr* const sent = CMSG_FIRSTHDR(&message.header);
-  *sent = {CMSG_LEN(sizeof(Descriptors)), SOL_SOCKET, SCM_RIGHTS};
-  const Descriptors fds{pipes.standard[0], pipes.standard[1], pipes.standard[2], pipes.lifeline, pipes.news};
-  std::memcpy(CMSG_DATA(sent), fds.data(), sizeof fds);
+  *sent = {CMSG_LEN(sizeof(KeeperPipes)), SOL_SOCKET, SCM_RIGHTS};
+  std::memcpy(CMSG_DATA(sent), &pipes, sizeof pipes);
   while (sendmsg(launcher, &message.header, MSG_NOSIGNAL) < 0)
     if (errno != EINTR) return false;
   for (ssize_t n = 0; (n = recv(launcher, &answer, sizeof answer, 0)) != sizeof answer;)

@@ -63,22 +63,18 @@ void read_created(Source& source);
 /// Of the worker only: the exit status it is going to end with.
 int read_ended(Source& source);
 
-/// The worker (worker.h) tells more than a program: what the subject did to the memory it was handed.
-struct Aftermath {
-  bool release_threw = false;
-};
-
 /// Allocates the arrays from `request`, reads them and announces them in `out`.
 ///   most_bytes   an answer that announces more is refused before anything is allocated
 ///   mesh         that was handed over, whose channels come with it
 void read_tessellation(Source& source, const Capabilities& capabilities, std::uint64_t most_bytes,
                        const lc_mesh& mesh, const lc_request& request, lc_tessellation& out);
 
-/// The same from the worker: repeats in the memory of `request` all that the subject did in the worker's:
-/// every block with its contents, writes into the guard zones, where each array points, and in `mesh` what
-/// the subject wrote to it. So the host judges what it would have seen without the process in between.
-Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh,
-                      const lc_request& request, lc_tessellation& out);
+/// The same from the worker (worker.h), which tells more than a program: repeats in the memory of `request` all that the
+/// subject did in the worker's: every block with its contents, writes into the guard zones, where each array points, and in
+/// `mesh` what the subject wrote to it. So the host judges what it would have seen without the process in between. Returns
+/// whether release() threw there.
+bool read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh, const lc_request& request,
+                 lc_tessellation& out);
 
 /// A text for a message: at most `longest` bytes, nothing a terminal would act on.
 std::string printable(std::string_view text, std::size_t longest);

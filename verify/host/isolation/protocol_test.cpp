@@ -33,6 +33,12 @@ Capabilities capabilities_of(const std::string& answer) {
   return read_capabilities(source);
 }
 
+std::string bytes_of(const auto&... arrays) {
+  std::string all;
+  (all.append(reinterpret_cast<const char*>(&arrays), sizeof arrays), ...);
+  return all;
+}
+
 TEST(Protocol, AsksInOneLineAndAPayload) {
   EXPECT_EQ(ask_capabilities("a=\"b\"", LC_SCHEME_CATMULL_CLARK),
             "{\"latest\":2,\"limitcheck\":1,\"options\":\"a=\\\"b\\\"\",\"request\":\"capabilities\","
@@ -48,11 +54,7 @@ TEST(Protocol, AsksInOneLineAndAPayload) {
     return c;
   };
   const std::string header = "{\"options\":\"\",\"request\":\"create\",\"triangles\":1,\"vertices\":3}\n";
-  const std::string binary = ask_create(mesh, "", program(Payload::kBinary, 1));
-  ASSERT_EQ(binary.size(), header.size() + sizeof positions + sizeof triangles);
-  EXPECT_EQ(binary.substr(0, header.size()), header);
-  EXPECT_EQ(std::memcmp(binary.data() + header.size(), positions, sizeof positions), 0);
-  EXPECT_EQ(std::memcmp(binary.data() + header.size() + sizeof positions, triangles, sizeof triangles), 0);
+  EXPECT_EQ(ask_create(mesh, "", program(Payload::kBinary, 1)), header + bytes_of(positions, triangles));
   EXPECT_EQ(ask_create(mesh, "", program(Payload::kText, 1)), header + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2\n");
   EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 1)),
             "{\"request\":\"tessellate\",\"threads\":2,\"triangles\":2}\n3\n-1\n");
@@ -60,36 +62,18 @@ TEST(Protocol, AsksInOneLineAndAPayload) {
   const std::int32_t quad[] = {0, 1, 2, 1}, four[] = {4};
   const lc_sharp_edge edges[] = {{2, 1, 2.3F}};
   const lc_sharp_vertex corners[] = {{1, INFINITY}};
-  const lc_mesh polygons{positions,
-                         3,
-                         nullptr,
-                         0,
-                         sizeof(lc_mesh),
-                         LC_SCHEME_CATMULL_CLARK,
-                         quad,
-                         4,
-                         four,
-                         1,
-                         edges,
-                         1,
-                         corners,
-                         1,
-                         LC_CREASING_CHAIKIN,
-                         1,
-                         0};
+  lc_mesh polygons{positions, 3, nullptr, 0, sizeof(lc_mesh), LC_SCHEME_CATMULL_CLARK, quad, 4, four, 1};
+  polygons.sharp_edges = edges, polygons.sharp_edge_count = 1;
+  polygons.sharp_vertices = corners, polygons.sharp_vertex_count = 1;
+  polygons.creasing = LC_CREASING_CHAIKIN, polygons.corners_held = 1;
   const std::string question =
       "{\"corners\":4,\"corners_held\":true,\"creasing\":\"chaikin\",\"faces\":1,\"options\":\"\","
       "\"request\":\"create\",\"scheme\":\"catmull-clark\",\"sharp_edges\":1,\"sharp_vertices\":1,"
       "\"smooth_triangles\":false,\"vertices\":3}\n";
   EXPECT_EQ(ask_create(polygons, "", program(Payload::kText, 2)),
             question + "0.1 0 0\n1 0 0\n0 1 1e-300\n0 1 2 1\n2 1 2.3\n1 inf\n");
-  const std::string arrays = ask_create(polygons, "", program(Payload::kBinary, 2)).substr(question.size());
-  const std::size_t before = sizeof positions + sizeof four + sizeof quad;
-  ASSERT_EQ(arrays.size(), before + sizeof edges + sizeof corners);
-  EXPECT_EQ(std::memcmp(arrays.data() + before, edges, sizeof edges), 0);
-  EXPECT_EQ(std::memcmp(arrays.data() + before + sizeof edges, corners, sizeof corners), 0);
-  EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions, four, sizeof four), 0);
-  EXPECT_EQ(std::memcmp(arrays.data() + sizeof positions + sizeof four, quad, sizeof quad), 0);
+  EXPECT_EQ(ask_create(polygons, "", program(Payload::kBinary, 2)),
+            question + bytes_of(positions, four, quad, edges, corners));
   EXPECT_EQ(ask_tessellate(std::vector<std::int32_t>{3, -1}, 2, program(Payload::kText, 2)),
             "{\"faces\":2,\"request\":\"tessellate\",\"threads\":2}\n3\n-1\n");
 }
@@ -140,11 +124,11 @@ struct Read {
   lc_tessellation out{};
 };
 
-void read(Read& r, const std::string& answer, Payload payload, std::uint64_t most = 1 << 20) {
-  Capabilities c = capabilities_of("{" + kHello + "}\n");
+void read(Read& r, const std::string& answer, Payload payload,
+          Capabilities c = capabilities_of("{" + kHello + "}\n")) {
   c.payload = payload;
   MemorySource source(answer);
-  read_tessellation(source, c, most, r.request, r.out);
+  read_tessellation(source, c, 1 << 20, r.request, r.out);
 }
 
 const std::string kText = "{\"status\": \"ok\", \"vertices\": 1, \"triangles\": 1}\n";
@@ -156,9 +140,7 @@ TEST(Protocol, ReadsTextAndBinaryToTheSameArrays) {
   const lc_provenance provenance{7, 1, 2, 4};
   const std::uint32_t corners[] = {0, 0, 0};
   const std::int32_t face = 7;
-  std::string bytes = kText;
-  const auto add = [&](const auto& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
-  add(positions), add(normals), add(provenance), add(corners), add(face);
+  const std::string bytes = kText + bytes_of(positions, normals, provenance, corners, face);
   read(binary, bytes, Payload::kBinary);
   for (const Read* r : {&text, &binary}) {
     EXPECT_EQ(r->out.vertex_count, 1);
@@ -177,19 +159,14 @@ TEST(Protocol, ReadsTextAndBinaryToTheSameArrays) {
 }
 
 TEST(Protocol, WithoutProvenanceHasPointsAndTrianglesAlone) {
-  Capabilities c = capabilities_of("{" + kHello + ", \"provenance\": false}\n");
+  const Capabilities c = capabilities_of("{" + kHello + ", \"provenance\": false}\n");
   EXPECT_EQ(c.values.no_provenance, 1);
   const float numbers[] = {1, 2, 3, 0, 0, 1};
   const std::uint32_t corners[] = {0, 0, 0};
-  std::string bytes = kText;
-  bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
-  bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
   for (const auto& [payload, answer] :
-       {std::pair{Payload::kBinary, bytes}, {Payload::kText, kText + "1 2 3 0 0 1\n0 0 0\n"}}) {
-    c.payload = payload;
+       {std::pair{Payload::kBinary, bytes_of(numbers, corners)}, {Payload::kText, "1 2 3 0 0 1\n0 0 0\n"}}) {
     Read r;
-    MemorySource source(answer);
-    read_tessellation(source, c, 1 << 20, r.request, r.out);
+    read(r, kText + answer, payload, c);
     EXPECT_EQ(std::memcmp(r.out.positions, numbers, sizeof numbers / 2), 0);
     EXPECT_EQ(std::memcmp(r.out.triangles, corners, sizeof corners), 0);
     EXPECT_EQ(r.out.provenance, nullptr);
@@ -199,25 +176,21 @@ TEST(Protocol, WithoutProvenanceHasPointsAndTrianglesAlone) {
 }
 
 TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
-  Capabilities c = capabilities_of(
+  const Capabilities c = capabilities_of(
       R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
       R"("weights": "loop", "boundary": "spline", "points": "refined", "max_depth": 5, "normals": false, )"
       R"("per_face_depth": false, "exact_lattice": true})"
       "\n");
   EXPECT_EQ(c.values.schemes, LC_DOES_CATMULL_CLARK);
-  std::string bytes = kText;
   const float position[] = {1, 2, 3};
   const lc_provenance provenance{7, 1, 2, 4};
   const std::int32_t corner = 5, face = 7;
   const std::uint32_t corners[] = {0, 0, 0};
-  const auto add = [&](const auto& x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
-  add(position), add(provenance), add(corner), add(corners), add(face);
   for (const auto& [payload, answer] :
-       {std::pair{Payload::kBinary, bytes}, {Payload::kText, kText + "1 2 3 7 1 2 4 5\n0 0 0 7\n"}}) {
-    c.payload = payload;
+       {std::pair{Payload::kBinary, bytes_of(position, provenance, corner, corners, face)},
+        {Payload::kText, "1 2 3 7 1 2 4 5\n0 0 0 7\n"}}) {
     Read r;
-    MemorySource source(answer);
-    read_tessellation(source, c, 1 << 20, r.request, r.out);
+    read(r, kText + answer, payload, c);
     EXPECT_EQ(std::memcmp(r.out.provenance, &provenance, sizeof provenance), 0);
     ASSERT_NE(r.out.corner, nullptr);
     EXPECT_EQ(*r.out.corner, 5);

@@ -18,14 +18,10 @@ using Statuses = std::map<std::string, std::string>;
 class RelationBreakdown : public CommandTest {
  protected:
   json audit(const std::string& options, const std::string& limits = "") const {
-    const Outcome o = run("audit '" LIMITCHECK_TEST_SUBJECTS
-                          "/hostile.so' octahedron tetrahedron --depth 1 "
-                          "--json - --options " +
-                          options + " " + limits);
-    EXPECT_EQ(o.code, options == "do=nothing" ? 0 : 1) << options << "\n" << o.out << o.err;
-    const json report = json::parse(o.out, nullptr, false);
-    EXPECT_FALSE(report.is_discarded()) << o.out;
-    return report;
+    return json_of("audit '" LIMITCHECK_TEST_SUBJECTS
+                   "/behaviours_2.so' octahedron tetrahedron --depth 1 --json - --options " +
+                       options + " " + limits,
+                   options == "behaviour=nothing@create" ? 0 : 1);
   }
   static Statuses statuses(const json& report, const std::string& mesh) {
     Statuses all;
@@ -57,7 +53,7 @@ class Misbehaves : public RelationBreakdown, public testing::WithParamInterface<
 
 TEST_P(Misbehaves, ItIsTheRowThatAskedAndNoOther) {
   const Case& c = GetParam();
-  static const json good = audit("do=nothing");
+  static const json good = audit("behaviour=nothing@create");
   Statuses expected = statuses(good, "octahedron");
   ASSERT_GE(expected.size(), 25U) << "checks and relations";
   for (const auto& [check, status] : expected) EXPECT_NE(status, "not-run") << check;
@@ -70,7 +66,7 @@ TEST_P(Misbehaves, ItIsTheRowThatAskedAndNoOther) {
   if (std::string(c.check) == "rejected-inputs") other[c.check] = c.status;  // the same broken meshes
   EXPECT_EQ(statuses(report, "tetrahedron"), other);
   const std::string told = message(report, c.check);
-  EXPECT_NE(told.find(c.words), std::string::npos) << told;
+  EXPECT_TRUE(says(told, c.words));
 
   // A process that breaks down leaves its input and the command that does it again.
   if (std::string(c.status) != "crash" && std::string(c.status) != "timeout") return;
@@ -78,37 +74,37 @@ TEST_P(Misbehaves, ItIsTheRowThatAskedAndNoOther) {
   const std::size_t place = told.find(key);
   ASSERT_NE(place, std::string::npos) << told;
   const std::string rest = told.substr(place + key.size());
-  const Outcome again = run(rest.substr(0, rest.find(" / ")) + " --level quick --json -");
-  EXPECT_EQ(again.code, 1) << told << again.err;
-  const json repeated = json::parse(again.out, nullptr, false);
-  ASSERT_FALSE(repeated.is_discarded()) << again.out;
+  const json repeated = json_of(rest.substr(0, rest.find(" / ")) + " --level quick --json -", 1);
   EXPECT_EQ(repeated["results"][0]["status"], c.status) << repeated["results"][0];
 }
 
 INSTANTIATE_TEST_SUITE_P(
     InOneRequest, Misbehaves,
     testing::Values(
-        Case{"dies_on_the_mirrored_mesh", "do=segfault,on=mirrored", "mirror", "crash", "mirrored: "},
-        Case{"dies_at_the_end_of_the_mirrored_mesh", "do=destroy,on=mirrored", "mirror", "crash",
+        Case{"dies_on_the_mirrored_mesh", "behaviour=segfault@tessellate,on=mirrored", "mirror", "crash",
+             "mirrored: "},
+        Case{"dies_at_the_end_of_the_mirrored_mesh", "behaviour=abort@destroy,on=mirrored", "mirror", "crash",
              "killed by SIGABRT"},
-        Case{"hangs_on_a_line", "do=sleep,on=line", "degenerate-geometry", "timeout",
+        Case{"hangs_on_a_line", "behaviour=sleep@tessellate,on=line", "degenerate-geometry", "timeout",
              "with all control points on a line: ", "--timeout 2"},
-        Case{"hangs_on_a_point", "do=spin,on=point", "degenerate-geometry", "timeout",
+        Case{"hangs_on_a_point", "behaviour=spin@tessellate,on=point", "degenerate-geometry", "timeout",
              "with all control points at the same place: ", "--timeout 2"},
-        Case{"takes_all_memory_on_the_large_mesh", "do=memory,on=large", "scaling", "crash",
+        Case{"takes_all_memory_on_the_large_mesh", "behaviour=memory@tessellate,on=large", "scaling", "crash",
              "times 2^10: ", "--memory 500"},
-        Case{"delivers_garbage_counts_when_mirrored", "do=garbage_counts,on=mirrored", "mirror", "finding",
-             "mirrored: vertex_count is 6510615555426900570"},
-        Case{"delivers_garbage_counts_the_second_time", "do=garbage_counts,on=second", "determinism",
-             "finding", "vertex_count is 6510615555426900570"},
-        Case{"delivers_garbage_counts_after_another_mesh", "do=garbage_counts,on=another", "state", "finding",
+        Case{"delivers_garbage_counts_when_mirrored", "behaviour=garbage_counts@answer,on=mirrored", "mirror",
+             "finding", "mirrored: vertex_count is 6510615555426900570"},
+        Case{"delivers_garbage_counts_the_second_time", "behaviour=garbage_counts@answer,on=second",
+             "determinism", "finding", "vertex_count is 6510615555426900570"},
+        Case{"delivers_garbage_counts_after_another_mesh", "behaviour=garbage_counts@answer,on=another",
+             "state", "finding",
              "after another mesh and its look-alikes: vertex_count is 6510615555426900570"},
-        Case{"fails_on_a_line", "do=throw,on=line", "degenerate-geometry", "error", "out of luck"},
-        Case{"writes_behind_its_memory_when_mirrored", "do=write_behind,on=mirrored", "mirror", "finding",
-             "mirrored: positions written outside its memory"},
-        Case{"dies_of_a_broken_mesh", "do=segfault,on=broken", "rejected-inputs", "crash",
+        Case{"fails_on_a_line", "behaviour=throw@tessellate,on=line", "degenerate-geometry", "error",
+             "out of luck"},
+        Case{"writes_behind_its_memory_when_mirrored", "behaviour=write_8_behind@answer,on=mirrored",
+             "mirror", "finding", "mirrored: positions written outside its memory"},
+        Case{"dies_of_a_broken_mesh", "behaviour=segfault@create,on=broken", "rejected-inputs", "crash",
              "an edge with three faces: "},
-        Case{"hangs_on_a_broken_mesh", "do=sleep,on=broken", "rejected-inputs", "timeout",
+        Case{"hangs_on_a_broken_mesh", "behaviour=sleep@create,on=broken", "rejected-inputs", "timeout",
              "an edge with three faces: ", "--timeout 1"}),
     [](const auto& of) { return std::string(of.param.name); });
 
@@ -116,31 +112,31 @@ INSTANTIATE_TEST_SUITE_P(
 class DoesNotValidate : public RelationBreakdown {
  protected:
   void expect_not_asked(const std::string& subject) const {
-    const Outcome o = run("audit " + subject + " octahedron --depth 1 --junit report.xml --json report.json");
-    EXPECT_EQ(o.code, 0) << o.out << o.err;
-    EXPECT_NE(o.out.find("rejected-inputs of "), std::string::npos) << o.out;
-    EXPECT_NE(o.out.find(" were never judged: not asked: does not validate\n"), std::string::npos) << o.out;
-    const json report = json::parse(read("report.json"), nullptr, false);
+    const Outcome o =
+        run("audit " + subject + " octahedron --depth 1 --junit report.xml --json report.json", 0);
+    EXPECT_TRUE(says(o.out, "rejected-inputs of "));
+    EXPECT_TRUE(says(o.out, " were never judged: not asked: does not validate\n"));
+    const json report = json_in("report.json");
     EXPECT_EQ(statuses(report, "octahedron")["rejected-inputs"], "not-supported");
     EXPECT_EQ(message(report, "rejected-inputs"), "not asked: does not validate");
     EXPECT_EQ(report["never_judged"][0]["reason"], "not asked: does not validate") << report["never_judged"];
     const std::string junit = read("report.xml");
     const std::size_t row = junit.find("name=\"rejected-inputs\"");
     ASSERT_NE(row, std::string::npos);
-    EXPECT_NE(junit.substr(row, 200).find("<skipped message=\"not-supported: "), std::string::npos);
-    EXPECT_NE(junit.substr(row, 200).find("not asked: does not validate"), std::string::npos);
+    EXPECT_TRUE(says(junit.substr(row, 200), "<skipped message=\"not-supported: "));
+    EXPECT_TRUE(says(junit.substr(row, 200), "not asked: does not validate"));
 
     write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n");
-    const Outcome refuse = run("audit " + subject + " broken.obj --must-refuse --details");
-    EXPECT_EQ(refuse.code, 2) << "nothing was looked at\n" << refuse.out << refuse.err;
-    EXPECT_NE(refuse.out.find("does not validate"), std::string::npos) << refuse.out;
+    const Outcome refuse = run("audit " + subject + " broken.obj --must-refuse --details", 2);
+    EXPECT_TRUE(says(refuse.out, "does not validate"));
   }
 };
 
 TEST_F(DoesNotValidate, ALibraryIsNotHandedBrokenMeshes) {
-  const std::string hostile = "'" LIMITCHECK_TEST_SUBJECTS "/hostile.so' --options do=segfault,on=broken";
-  expect_not_asked(hostile + ",validates=no");
-  EXPECT_EQ(run("audit " + hostile + " octahedron --depth 1").code, 1) << "one that validates is";
+  const std::string fragile =
+      "'" LIMITCHECK_TEST_SUBJECTS "/behaviours_2.so' --options behaviour=segfault@create,on=broken";
+  expect_not_asked(fragile + ",validates=no");
+  EXPECT_EQ(run("audit " + fragile + " octahedron --depth 1").code, 1) << "one that validates is";
 }
 
 TEST_F(DoesNotValidate, AProgramIsNotHandedBrokenMeshes) {

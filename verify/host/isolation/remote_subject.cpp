@@ -131,7 +131,7 @@ struct RemoteCalls {
       if (i.subject.kind_ == RemoteSubject::Kind::kProgram) {
         protocol::read_tessellation(*i.child, i.capabilities, most, i.mesh, *request, *out);
       } else {
-        i.release_threw = protocol::read_replay(*i.child, most, i.mesh, *request, *out).release_threw;
+        i.release_threw = protocol::read_replay(*i.child, most, i.mesh, *request, *out);
       }
     });
   }

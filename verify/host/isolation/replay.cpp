@@ -52,8 +52,8 @@ void* pointer(const nlohmann::json& place, const std::vector<std::byte*>& memory
 
 }  // namespace
 
-Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh,
-                      const lc_request& request, lc_tessellation& out) {
+bool read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh, const lc_request& request,
+                 lc_tessellation& out) {
   const Header header = read_header(source);
   header.refuse_unless_ok();
   out.vertex_count = header.integer("vertices", INT64_MIN, INT64_MAX);
@@ -82,7 +82,7 @@ Aftermath read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& m
   // The copy that the session lent to the subject: to be written to, as the subject did.
   if (header.flag("mesh_changed"))
     for (const auto& array : arrays_of(mesh)) source.read(array);
-  return {header.flag("release_threw")};
+  return header.flag("release_threw");
 }
 
 }  // namespace limitcheck::verify::protocol

@@ -1,42 +1,24 @@
 // SPDX-License-Identifier: MIT
 // A program that speaks the protocol as text and knows the octahedron at depth 0, until it does what its
 // words say: THING, or THING at hello|create|end. Everything here is wrong on purpose.
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "verify/host/isolation/test_subjects/things.h"
 
 namespace {
 
 std::string thing, place = "tessellate";
 
-[[noreturn]] void sleep_for_ever() {
-  for (;;) sleep(1000);
-}
-void take_memory(std::size_t mib) {
-  void* const taken = mmap(nullptr, mib << 20, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (taken != MAP_FAILED) std::memset(taken, 1, mib << 20);
-}
-void in_a_child(bool as_a_daemon, std::size_t mib) {
-  const pid_t first = fork();
-  if (first == 0) {
-    if (as_a_daemon) setsid();
-    if (as_a_daemon && fork() != 0) _exit(0);
-    take_memory(mib);
-    sleep_for_ever();
-  }
-  if (as_a_daemon) waitpid(first, nullptr, 0);
-}
 void say(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   std::fflush(stdout);
@@ -46,55 +28,38 @@ void say_status(const char* status) {
   _exit(0);
 }
 
+// Answers that are none, or announce what cannot be; nothing comes after them.
+const std::map<std::string, std::string>& answers() {
+  const auto counts = [](const std::string& vertices, const std::string& triangles) {
+    return R"({"status": "ok", "vertices": )" + vertices + R"(, "triangles": )" + triangles + "}\n";
+  };
+  static const std::map<std::string, std::string> all{
+      {"chatter", "hello there\n"},
+      {"no_end_of_line", std::string(100000, 'x')},
+      {"nested", std::string(60000, '[') + "\n"},
+      {"nested_value", counts(std::string(12000, '[') + std::string(12000, ']'), "8")},
+      {"not_utf8", "{\"status\": \"\xff\xfe\"}\n"},
+      {"counts_1e18", counts("1000000000000000000", "1")},
+      {"counts_negative", counts("6", "-8")},
+      {"counts_real", counts("6.5", "8")},
+      {"counts_text", counts("\"6\"", "8")},
+      {"no_counts", "{\"status\": \"ok\"}\n"}};
+  return all;
+}
+
 void misbehave(const std::string& here) {
   if (place != here) return;
-  if (thing == "segfault") raise(SIGSEGV);
-  if (thing == "abort") std::abort();
+  if (const auto known = things().find(thing); known != things().end()) return known->second();
+  if (const auto answer = answers().find(thing); answer != answers().end())
+    say(answer->second), sleep_for_ever();
   if (thing.starts_with("exit")) _exit(std::atoi(thing.c_str() + 4));
-  if (thing == "kill_group") kill(0, SIGKILL);
   if (thing == "complain") std::fputs("no luck today\n", stderr), _exit(1);
   if (thing == "in_the_middle")
     say(R"({"status": "ok", "vertices": 6, "triangles": 8})"
         "\n1 2 3"),
         _exit(0);
-  if (thing == "sleep") sleep_for_ever();
-  if (thing == "stop") raise(SIGSTOP);
-  if (thing == "leave_group") setpgid(0, getpgid(getppid())), sleep_for_ever();
-  if (thing == "own_session") setsid(), sleep_for_ever();
-  if (thing == "kill_parent") kill(getppid(), SIGKILL), sleep_for_ever();
-  while (thing == "flood_errors") std::fputs("nonsense nonsense nonsense\n", stderr);
   while (thing == "drip") say(" "), usleep(10000);
   if (thing == "deaf" || thing == "dumb") close(0), close(1), sleep_for_ever();
-  if (thing == "memory") take_memory(600), sleep_for_ever();
-  if (thing == "memory_in_a_daemon") in_a_child(true, 600), sleep_for_ever();
-  for (int k = 0; thing == "many_processes" && k < 60; ++k) in_a_child(false, 0);
-  if (thing == "many_processes") sleep_for_ever();
-  if (thing == "child") in_a_child(false, 1);
-  if (thing == "daemon") in_a_child(true, 1);
-  if (thing == "chatter") say("hello there\n"), sleep_for_ever();
-  if (thing == "no_end_of_line") say(std::string(100000, 'x')), sleep_for_ever();
-  if (thing == "nested") say(std::string(60000, '[') + "\n"), sleep_for_ever();
-  if (thing == "nested_value")
-    say(R"({"status": "ok", "triangles": 8, "vertices": )" + std::string(12000, '[') +
-        std::string(12000, ']') + "}\n"),
-        sleep_for_ever();
-  if (thing == "not_utf8") say("{\"status\": \"\xff\xfe\"}\n"), sleep_for_ever();
-  if (thing == "counts_1e18")
-    say(R"({"status": "ok", "vertices": 1000000000000000000, "triangles": 1})"
-        "\n");
-  if (thing == "counts_negative")
-    say(R"({"status": "ok", "vertices": 6, "triangles": -8})"
-        "\n");
-  if (thing == "counts_real")
-    say(R"({"status": "ok", "vertices": 6.5, "triangles": 8})"
-        "\n");
-  if (thing == "counts_text")
-    say(R"({"status": "ok", "vertices": "6", "triangles": 8})"
-        "\n");
-  if (thing == "no_counts")
-    say(R"({"status": "ok"})"
-        "\n");
-  if (thing.starts_with("counts_") || thing == "no_counts") sleep_for_ever();
   if (thing == "failed") say_status("failed");
   if (thing == "not_supported") say_status("not-supported");
   if (thing == "other_status") say_status("so-so");

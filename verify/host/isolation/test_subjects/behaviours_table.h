@@ -6,15 +6,15 @@
 
 namespace limitcheck::verify {
 
-struct Behaviour {
-  const char*
-      how;  // THING@PLACE of test_subjects/behaviours.cpp, or THING of test_subjects/behaviours_program.cpp
-  const char*
-      outcome;  // right, defect, refused, crash, timeout, memory, protocol; the first of two is told with
-  const char* words = "";  // these words
+// Those with one outcome.
+struct BehaviourGroup {
+  const char* outcome;  // right, defect, refused, crash, timeout, memory, protocol
+  const char* words;    // with which the first of these is told
+  // Each THING@PLACE of test_subjects/behaviours.cpp, or THING of test_subjects/behaviours_program.cpp.
+  std::vector<const char*> how;
 };
 
-const std::vector<Behaviour>& library_behaviours();
-const std::vector<Behaviour>& program_behaviours();
+const std::vector<BehaviourGroup>& library_behaviours();
+const std::vector<BehaviourGroup>& program_behaviours();
 
 }  // namespace limitcheck::verify

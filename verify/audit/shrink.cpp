@@ -8,6 +8,7 @@
 #include "data/cut_out.h"
 #include "data/validate.h"
 #include "verify/audit/audit.h"
+#include "verify/evidence/faces_around.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/relations.h"
 #include "verify/row/statistics.h"
@@ -100,22 +101,18 @@ class Shrinker {
   // All faces by the number of rings between them and `face`; those out of reach last.
   std::vector<int> rings(std::int64_t face) const {
     const data::Faces& faces = best_.mesh.mesh.faces;
-    std::vector<int> ring(faces.size(), -1), of_vertex(best_.mesh.mesh.positions.size(), -1);
+    std::vector<int> ring(faces.size(), -1);
     if (face < 0 || face >= static_cast<std::int64_t>(faces.size())) return ring;
+    const FacesAround around(faces, best_.mesh.mesh.positions.size());
+    Faces reached{static_cast<std::int32_t>(face)};  // in the order of their rings
     ring[face] = 0;
-    for (int r = 0, found = 1; found > 0; ++r) {
-      found = 0;
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        if (ring[f] == r)
-          for (const auto v : faces[f]) of_vertex[v] = r;
-      for (std::size_t f = 0; f < faces.size(); ++f) {
-        if (ring[f] >= 0) continue;
-        if (std::any_of(faces[f].begin(), faces[f].end(), [&](auto v) { return of_vertex[v] >= 0; })) {
-          ring[f] = r + 1;
-          ++found;
+    for (std::size_t k = 0; k < reached.size(); ++k)
+      for (const std::int32_t v : faces[reached[k]])
+        for (const std::int32_t f : around.of(v)) {
+          if (ring[f] >= 0) continue;
+          ring[f] = ring[reached[k]] + 1;
+          reached.push_back(f);
         }
-      }
-    }
     return ring;
   }
 

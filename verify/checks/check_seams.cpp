@@ -50,21 +50,17 @@ void compare(const Evidence& e, std::vector<Use> uses, Bits bits, Value value, D
     }
   });
   const Statistics s = summarise(far, 0);
-  r.of = s.of;
-  r.worst = s.worst;
-  r.rms = s.rms;
-  r.p99 = s.p99;
+  take(r, s);
   r.bound = 0;
-  for (const std::int64_t v : other) r.bad += v >= 0;
+  r.bad = std::count_if(other.begin(), other.end(), [](std::int64_t v) { return v >= 0; });
   r.message = r.of == 0 ? "every shared point is delivered once"
                         : fmt::format("{:.1f} % of the points delivered more than once differ in bits",
                                       100.0 * static_cast<double>(r.bad) / static_cast<double>(r.of));
   std::int64_t not_finite = 0;
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) not_finite += !is_finite(value(v));
   say_left_out(r, not_finite, "vectors");
-  if (r.of == 0 && not_finite > 0) r.status = Status::kNotRun;
+  r.status = r.bad > 0 ? Status::kFinding : r.of == 0 && not_finite > 0 ? Status::kNotRun : Status::kHeld;
   if (r.bad == 0) return;
-  r.status = Status::kFinding;
   std::size_t g = static_cast<std::size_t>(s.worst_at);
   if (other[g] < 0)  // they differ in the sign of a zero only: distance 0
     g = static_cast<std::size_t>(std::find_if(other.begin(), other.end(), [](auto v) { return v >= 0; }) -

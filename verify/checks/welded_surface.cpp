@@ -47,16 +47,11 @@ Welded weld(const Evidence& e) {
 }
 
 std::int64_t coincident_boundary_edges(const Evidence& e) {
-  std::vector<std::pair<Vector, Vector>> ends;
+  std::map<std::pair<Vector, Vector>, std::int64_t> edges;  // how many have these ends
   for (const Lattice::Edge& edge : e.lattice.edges())
-    if (edge.on_boundary()) ends.push_back(std::minmax({e.mesh.positions[edge.a], e.mesh.positions[edge.b]}));
-  std::sort(ends.begin(), ends.end());
+    if (edge.on_boundary()) ++edges[std::minmax({e.mesh.positions[edge.a], e.mesh.positions[edge.b]})];
   std::int64_t count = 0;
-  for (auto first = ends.begin(); first != ends.end();) {
-    const auto last = std::find_if(first, ends.end(), [&](const auto& other) { return other != *first; });
-    if (last - first > 1) count += last - first;
-    first = last;
-  }
+  for (const auto& [ends, times] : edges) count += times > 1 ? times : 0;
   return count;
 }
 

@@ -152,10 +152,53 @@ std::vector<Use> find_uses(const Tessellation& t, const std::vector<Lattice::Id>
 // The kinds of all lattice points of a mesh.                                              O(faces) to make
 class NeighbourhoodCounts {
  public:
-  explicit NeighbourhoodCounts(const Lattice& lattice);
+  explicit NeighbourhoodCounts(const Lattice& lattice) : lattice_(lattice) {
+    const data::ControlMesh& mesh = lattice.mesh();
+    const bool loop = lattice.scheme() == data::Scheme::kLoop;
+    const auto is_regular = [&](std::int32_t face) { return loop || mesh.faces[face].size() == 4; };
+    const ControlVertices vertices(lattice);
+    for (const float s : vertices.sharpness) sharp_edge_.push_back(s > 0);
+    for (const ControlVertex& at : vertices.all) {
+      const bool is_held = at.own > 0 || (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner &&
+                                          at.boundary && at.faces.size() == 1);
+      const int sharp_edges = at.infinite + at.semi;
+      const int count = sharp_edges + (at.boundary && sharp_edges > 0 ? 2 : 0);
+      PlaceCount& place = vertex_.emplace_back();
+      place.kind = is_held || count > 2                                         ? PlaceKind::kCorner
+                   : count == 2                                                 ? PlaceKind::kCrease
+                   : count == 1                                                 ? PlaceKind::kDart
+                   : at.boundary                                                ? PlaceKind::kBoundaryVertex
+                   : !std::all_of(at.faces.begin(), at.faces.end(), is_regular) ? PlaceKind::kPolygonVertex
+                   : at.faces.size() != (loop ? 6U : 4U) ? PlaceKind::kExtraordinaryVertex
+                                                         : PlaceKind::kRegularVertex;
+      if (place.kind == PlaceKind::kBoundaryVertex || place.kind == PlaceKind::kExtraordinaryVertex)
+        place.faces = static_cast<std::int32_t>(at.faces.size());
+    }
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      PlaceKind kind =
+          is_regular(static_cast<std::int32_t>(f)) ? PlaceKind::kRegularFace : PlaceKind::kIrregularFace;
+      for (const std::int32_t v : mesh.faces[f]) {
+        const PlaceKind at = vertex_[v].kind;
+        kind = std::max(kind, at >= PlaceKind::kDart             ? PlaceKind::kSharpFace
+                              : at == PlaceKind::kBoundaryVertex ? PlaceKind::kBoundaryFace
+                              : at == PlaceKind::kRegularVertex  ? PlaceKind::kRegularFace
+                                                                 : PlaceKind::kIrregularFace);
+      }
+      face_.push_back(kind);
+    }
+  }
 
   // Kind, and number of faces where PlaceCount has one; nothing counted. `id` is a lattice point.
-  PlaceCount of(Lattice::Id id) const;
+  PlaceCount of(Lattice::Id id) const {
+    if (lattice_.is_vertex(id)) return vertex_[id];
+    if (!lattice_.is_shared(id)) return {face_[lattice_.place(id).face], -1, 0, 0};
+    const std::size_t k = lattice_.edge_of(id);
+    if (sharp_edge_[k]) return {PlaceKind::kSharpEdge, -1, 0, 0};
+    const Lattice::Edge& edge = lattice_.edges()[k];
+    PlaceKind kind = face_[edge.face[0]];
+    if (!edge.on_boundary()) kind = std::max(kind, face_[edge.face[1]]);
+    return {kind, -1, 0, 0};
+  }
 
  private:
   const Lattice& lattice_;
@@ -163,53 +206,6 @@ class NeighbourhoodCounts {
   std::vector<PlaceKind> face_;
   std::vector<bool> sharp_edge_;
 };
-
-NeighbourhoodCounts::NeighbourhoodCounts(const Lattice& lattice) : lattice_(lattice) {
-  const data::ControlMesh& mesh = lattice.mesh();
-  const bool loop = lattice.scheme() == data::Scheme::kLoop;
-  const auto is_regular = [&](std::int32_t face) { return loop || mesh.faces[face].size() == 4; };
-  const ControlVertices vertices(lattice);
-  for (const float s : vertices.sharpness) sharp_edge_.push_back(s > 0);
-  for (const ControlVertex& at : vertices.all) {
-    const bool is_held = at.own > 0 || (mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner &&
-                                        at.boundary && at.faces.size() == 1);
-    const int sharp_edges = at.infinite + at.semi;
-    const int count = sharp_edges + (at.boundary && sharp_edges > 0 ? 2 : 0);
-    PlaceCount& place = vertex_.emplace_back();
-    place.kind = is_held || count > 2                                         ? PlaceKind::kCorner
-                 : count == 2                                                 ? PlaceKind::kCrease
-                 : count == 1                                                 ? PlaceKind::kDart
-                 : at.boundary                                                ? PlaceKind::kBoundaryVertex
-                 : !std::all_of(at.faces.begin(), at.faces.end(), is_regular) ? PlaceKind::kPolygonVertex
-                 : at.faces.size() != (loop ? 6U : 4U) ? PlaceKind::kExtraordinaryVertex
-                                                       : PlaceKind::kRegularVertex;
-    if (place.kind == PlaceKind::kBoundaryVertex || place.kind == PlaceKind::kExtraordinaryVertex)
-      place.faces = static_cast<std::int32_t>(at.faces.size());
-  }
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    PlaceKind kind =
-        is_regular(static_cast<std::int32_t>(f)) ? PlaceKind::kRegularFace : PlaceKind::kIrregularFace;
-    for (const std::int32_t v : mesh.faces[f]) {
-      const PlaceKind at = vertex_[v].kind;
-      kind = std::max(kind, at >= PlaceKind::kDart             ? PlaceKind::kSharpFace
-                            : at == PlaceKind::kBoundaryVertex ? PlaceKind::kBoundaryFace
-                            : at == PlaceKind::kRegularVertex  ? PlaceKind::kRegularFace
-                                                               : PlaceKind::kIrregularFace);
-    }
-    face_.push_back(kind);
-  }
-}
-
-PlaceCount NeighbourhoodCounts::of(Lattice::Id id) const {
-  if (lattice_.is_vertex(id)) return vertex_[id];
-  if (!lattice_.is_shared(id)) return {face_[lattice_.place(id).face], -1, 0, 0};
-  const std::size_t k = lattice_.edge_of(id);
-  if (sharp_edge_[k]) return {PlaceKind::kSharpEdge, -1, 0, 0};
-  const Lattice::Edge& edge = lattice_.edges()[k];
-  PlaceKind kind = face_[edge.face[0]];
-  if (!edge.on_boundary()) kind = std::max(kind, face_[edge.face[1]]);
-  return {kind, -1, 0, 0};
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
+#include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
 namespace {

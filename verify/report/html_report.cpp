@@ -178,39 +178,34 @@ struct Shown {
   Vector middle;
 
   // Keeps the triangles nearest to the middle, at most kMostTriangles.
-  void keep_nearest();
+  void keep_nearest() {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      if (const Vector& p = positions[triangles[k][0]]; is_finite(p))
+        order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
+    std::sort(order.begin(), order.end());
+    order.resize(std::min(order.size(), kMostTriangles));
+    std::vector<std::array<std::uint32_t, 3>> kept;
+    for (const auto& [distance, k] : order) kept.push_back(triangles[k]);
+    triangles = std::move(kept);
+  }
   ErrorShape shape(const data::ControlMesh& control,
-                   const std::function<std::uint8_t(std::uint32_t)>& value) const;
+                   const std::function<std::uint8_t(std::uint32_t)>& value) const {
+    ErrorShape shape;
+    shape.control = edges_of(control);
+    std::map<std::uint32_t, std::uint32_t> number;
+    for (const auto& corners : triangles)
+      for (const std::uint32_t v : corners) {
+        const auto [at, is_new] = number.emplace(v, static_cast<std::uint32_t>(shape.values.size()));
+        shape.triangles.push_back(at->second);
+        if (!is_new) continue;
+        append(shape.positions, positions[v]);
+        shape.values.push_back(value(v));
+      }
+    for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
+    return shape;
+  }
 };
-
-void Shown::keep_nearest() {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t k = 0; k < triangles.size(); ++k)
-    if (const Vector& p = positions[triangles[k][0]]; is_finite(p))
-      order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
-  std::sort(order.begin(), order.end());
-  order.resize(std::min(order.size(), kMostTriangles));
-  std::vector<std::array<std::uint32_t, 3>> kept;
-  for (const auto& [distance, k] : order) kept.push_back(triangles[k]);
-  triangles = std::move(kept);
-}
-
-ErrorShape Shown::shape(const data::ControlMesh& control,
-                        const std::function<std::uint8_t(std::uint32_t)>& value) const {
-  ErrorShape shape;
-  shape.control = edges_of(control);
-  std::map<std::uint32_t, std::uint32_t> number;
-  for (const auto& corners : triangles)
-    for (const std::uint32_t v : corners) {
-      const auto [at, is_new] = number.emplace(v, static_cast<std::uint32_t>(shape.values.size()));
-      shape.triangles.push_back(at->second);
-      if (!is_new) continue;
-      append(shape.positions, positions[v]);
-      shape.values.push_back(value(v));
-    }
-  for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
-  return shape;
-}
 
 std::string note_of(bool normals, double bound, std::size_t triangles) {
   std::string note =

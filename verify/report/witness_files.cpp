@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "data/io/write.h"
 #include "reference/surface/certified.h"
@@ -43,46 +42,17 @@ void add_limit(Json& json, const Result& r, data::ControlMesh mesh) {
   json["limit_normal"] = vector(point.normal);
 }
 
-// A folder that appears whole or not at all, in the place of an older one.
-class Partial {
- public:
-  explicit Partial(std::filesystem::path place)
-      : place_(std::move(place)), folder_(place_.string() + ".partial") {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Partial() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  Partial(const Partial&) = delete;
-  Partial& operator=(const Partial&) = delete;
-  const std::filesystem::path& folder() const { return folder_; }
-  void commit() {
-    std::filesystem::remove_all(place_);
-    std::filesystem::rename(folder_, place_);
-  }
-
- private:
-  std::filesystem::path place_, folder_;
-};
-
-}  // namespace
-
-std::filesystem::path write_witness(const std::filesystem::path& folder, const Report& report,
-                                    const Result& result, const AuditMesh& mesh, const std::string& level) {
-  const std::filesystem::path place =
-      folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(case_name(report, result)));
-  Partial partial(place);
-  const std::filesystem::path control = place / "control.obj";
-  data::write_mesh(partial.folder() / "control.obj", mesh.mesh);
+// Into `folder`, which will be `place`.
+void write_files(const std::filesystem::path& folder, const std::filesystem::path& place,
+                 const Result& result, const AuditMesh& mesh, const std::string& level) {
+  data::write_mesh(folder / "control.obj", mesh.mesh);
   Result here = result;
-  here.mesh = control.string();
+  here.mesh = (place / "control.obj").string();
   here.triangulated.clear();  // the file has the triangles
   if (!mesh.face_depth.empty()) {
     std::string lines;
     for (const std::int32_t depth : mesh.face_depth) lines += std::to_string(depth) + "\n";
-    write_text(partial.folder() / "depths.txt", lines);
+    write_text(folder / "depths.txt", lines);
     here.depths = after_of(result.depths) + "file:" + (place / "depths.txt").string();
   }
 
@@ -113,9 +83,28 @@ std::filesystem::path write_witness(const std::filesystem::path& folder, const R
     }
   }
   json["audit"] = audit_command(here, level);
-  write_text(partial.folder() / "witness.json",
-             json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  partial.commit();
+  write_text(folder / "witness.json", json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace
+
+std::filesystem::path write_witness(const std::filesystem::path& folder, const Report& report,
+                                    const Result& result, const AuditMesh& mesh, const std::string& level) {
+  const std::filesystem::path place =
+      folder / (plain(result.subject) + "-" + plain(result.check) + "-" + plain(case_name(report, result)));
+  // It appears whole or not at all, in the place of an older one.
+  const std::filesystem::path partial = place.string() + ".partial";
+  std::filesystem::remove_all(partial);
+  std::filesystem::create_directories(partial);
+  try {
+    write_files(partial, place, result, mesh, level);
+    std::filesystem::remove_all(place);
+    std::filesystem::rename(partial, place);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove_all(partial, ignored);
+    throw;
+  }
   return place;
 }
 

@@ -22,10 +22,6 @@ struct Does {
   std::int32_t sharp = 0;  // lc_capabilities::sharp
 };
 
-/// What the subject says that it does of a scheme: one entry, or none if it does not do it. Throws
-/// SubjectError: it refuses its options, or breaks down.
-std::vector<Does> does_of(const AuditSubject& subject, data::Scheme scheme);
-
 /// What the subject says that it does, of these schemes. A subject that breaks down when it is asked does
 /// both, without sharp edges: the audit will say why.
 std::vector<Does> schemes_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes);

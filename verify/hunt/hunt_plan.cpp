@@ -193,12 +193,13 @@ std::vector<Key> keys_in(std::string_view text) {
   return keys;
 }
 
-}  // namespace
-
+// What the subject says that it does of a scheme: one entry, or none if it does not do it.
 std::vector<Does> does_of(const AuditSubject& subject, data::Scheme scheme) {
   const lc_capabilities c = capabilities(*subject.subject, subject.options, scheme);
   return does(c, scheme) ? std::vector<Does>{{scheme, c.sharp}} : std::vector<Does>{};
 }
+
+}  // namespace
 
 std::vector<Does> schemes_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes) {
   std::vector<Does> all;

@@ -125,6 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"memory@tessellate", "tessellates", "crash", "500 MiB are allowed", "--memory 500"},
         Case{"leak@tessellate", "tessellates", "held", ""},
         Case{"print@tessellate", "tessellates", "held", ""},
+        Case{"write_to_1@tessellate", "tessellates", "held", ""},
         Case{"close_standard@tessellate", "tessellates", "held", ""},
         Case{"huge_vertex_count@answer", "written", "finding", "vertex_count is 1152921504606846976"},
         Case{"garbage_counts@answer", "written", "finding", "vertex_count is 6510615555426900570"},

@@ -5,6 +5,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sched.h>
 #include <sys/mount.h>
@@ -19,6 +20,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <string_view>
 
 namespace limitcheck::verify {
 namespace {
@@ -37,35 +39,22 @@ void tell(int news, News::Kind kind, int value) {
   }
 }
 
-// Puts digits and a line end behind `text`, and writes that to a file.
-bool write_line(const char* file, const char* text, unsigned a, unsigned b) {
-  std::array<char, 64> line{};
-  char* end = line.data();
-  const auto number = [&end](unsigned value) {
-    char* const begin = end;
-    do {
-      *end++ = static_cast<char>('0' + value % 10);
-    } while ((value /= 10) != 0);
-    std::reverse(begin, end);
-    *end++ = ' ';
-  };
-  if (*text != '\0') {
-    end = stpcpy(end, text);
-  } else {
-    number(a), number(b), number(1);
-  }
+bool write_to(const char* file, std::string_view text) {
   const int fd = open(file, O_WRONLY | O_CLOEXEC);
-  const auto size = end - line.data();
-  const bool written = fd >= 0 && write(fd, line.data(), static_cast<std::size_t>(size)) == size;
+  const bool written = fd >= 0 && write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (fd >= 0) close(fd);
   return written;
 }
 
 // In the new user namespace, user and group keep their numbers.
 bool keep_identity(const Identity& own) {
-  return write_line("/proc/self/setgroups", "deny", 0, 0) &&
-         write_line("/proc/self/uid_map", "", own.user, own.user) &&
-         write_line("/proc/self/gid_map", "", own.group, own.group);
+  const auto keep = [](const char* file, unsigned number) {
+    std::array<char, 64> text{};  // fmt takes no memory for numbers
+    const auto end = fmt::format_to_n(text.data(), text.size(), "{0} {0} 1", number).out;
+    return write_to(file, {text.data(), static_cast<std::size_t>(end - text.data())});
+  };
+  return write_to("/proc/self/setgroups", "deny") && keep("/proc/self/uid_map", own.user) &&
+         keep("/proc/self/gid_map", own.group);
 }
 
 // A /proc with the numbers of this namespace: interpreters and debuggers look for themselves there.

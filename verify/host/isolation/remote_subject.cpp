@@ -2,12 +2,14 @@
 #include "verify/host/isolation/remote_subject.h"
 
 #include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -16,9 +18,19 @@
 #include "data/io/write.h"
 #include "data/validate.h"
 #include "verify/subject/control_mesh.h"
+#include "verify/subject/lent_mesh.h"
 #include "verify/subject/shell_word.h"
 
 namespace limitcheck::verify {
+
+namespace {
+
+std::uint64_t fnv1a(std::string_view text, std::uint64_t hash) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+}  // namespace
 
 // The functions behind the table. capabilities() and create() get no pointer to their subject, so each remote
 // subject has a pair of its own, which the compiler makes for each of 64 slots.
@@ -38,13 +50,66 @@ struct RemoteCalls {
     return all;
   }
 
+  // What was asked when it broke down.
+  struct Call {
+    const std::string& options;
+    const lc_mesh* mesh = nullptr;              // none: it did not get one yet
+    std::span<const std::int32_t> depths = {};  // none: it was not asked to tessellate
+  };
+
+  // Saves the control mesh (OBJ, bit for bit) and, unless all are the same, the depths of the faces (one per line) in the
+  // witness folder, under names made from their contents, so that the same breakdown is kept once. Returns "; again with:
+  // limitcheck audit ...", or why nothing could be saved. Never throws.
+  static std::string save_input(const RemoteSubject& s, const Call& call) try {
+    const bool program = s.kind_ == RemoteSubject::Kind::kProgram;
+    const ProcessLimits& limits = s.settings_.limits;
+    std::string command =
+        fmt::format("limitcheck audit {}{}", program ? "--program " : "", shell_word(s.what_));
+    std::string rest = s.kind_ == RemoteSubject::Kind::kBuiltIn ? " --isolate" : "";
+    if (!call.options.empty()) rest += fmt::format(" --options {}", shell_word(call.options));
+    if (limits.seconds != ProcessLimits().seconds) rest += fmt::format(" --timeout {}", limits.seconds);
+    if (limits.memory_mib != ProcessLimits().memory_mib)
+      rest += fmt::format(" --memory {}", limits.memory_mib);
+    const std::filesystem::path place(s.settings_.witness_folder);
+    if (call.mesh == nullptr || place.empty()) return fmt::format("; again with: {}{}", command, rest);
+
+    std::filesystem::create_directories(place);
+    const data::ControlMesh mesh = control_mesh(*call.mesh);
+    const std::uint64_t hash = fnv1a(data::mesh_content(mesh, data::FileFormat::kObj), 0xcbf29ce484222325ULL);
+    const auto mesh_file = place / fmt::format("{:016x}.obj", hash);
+    data::write_mesh(mesh_file, mesh);
+    command += fmt::format(" {}", shell_word(mesh_file.string()));
+    const data::Scheme scheme = scheme_of(call.mesh->scheme);
+    if (scheme != data::natural_scheme(mesh)) command += fmt::format(" --scheme {}", data::name_of(scheme));
+    if (!data::validate(mesh, scheme).empty())
+      return fmt::format("; again with: {}{} --must-refuse", command, rest);
+
+    if (!call.depths.empty()) {
+      const auto [least, most] = std::minmax_element(call.depths.begin(), call.depths.end());
+      command += fmt::format(" --depth {}", std::max(*most, 0));
+      if (*least != *most || *least < 0) {
+        std::string lines;
+        for (const std::int32_t d : call.depths) lines += fmt::format("{}\n", d);
+        const auto depth_file = place / fmt::format("{:016x}.depths", fnv1a(lines, hash));
+        std::ofstream out(depth_file, std::ios::binary);
+        out << lines;
+        out.close();
+        if (!out) return fmt::format("; cannot write {}", depth_file.string());
+        command += fmt::format(" --depths {}", shell_word(fmt::format("file:{}", depth_file.string())));
+      }
+    }
+    return fmt::format("; again with: {}{}", command, rest);
+  } catch (const std::exception& error) {
+    return fmt::format("; its input could not be saved: {}", error.what());
+  }
+
   // Errors of the process, and refusals, as statuses of the plug-in interface.
   template <class Work>
-  static lc_status answer(RemoteSubject& s, ChildProcess& child, const char** message, const Input& input,
+  static lc_status answer(RemoteSubject& s, ChildProcess& child, const char** message, const Call& call,
                           Work&& work) {
     static thread_local std::string text;
     const auto died = [&](const SubjectDied& e) {
-      const std::string saved = save_input(s.settings_.witness_folder, input);
+      const std::string saved = save_input(s, call);
       throw SubjectDied(e.kind(), fmt::format("{}: {}{}", s.name_, e.what(), saved));
     };
     try {
@@ -70,19 +135,12 @@ struct RemoteCalls {
     return LC_FAILED;
   }
 
-  static Input input(const RemoteSubject& s, const std::string& options, const lc_mesh* mesh = nullptr,
-                     std::span<const std::int32_t> depths = {}) {
-    using Kind = RemoteSubject::Kind;
-    const char* const flag = s.kind_ == Kind::kProgram ? "--program" : "";
-    return {flag, s.what_, s.kind_ == Kind::kBuiltIn, options, s.settings_.limits, mesh, depths};
-  }
-
   static lc_status capabilities(RemoteSubject& s, const char* options, lc_capabilities* out,
                                 const char** message) {
     const std::string given = options != nullptr ? options : "";
     s.waiting_.reset();
     auto child = s.start();
-    const lc_status status = answer(s, *child, message, input(s, given), [&] {
+    const lc_status status = answer(s, *child, message, {given}, [&] {
       child->ask(protocol::ask_capabilities(given, out->scheme));
       s.capabilities_ = protocol::read_capabilities(*child);
       s.options_text_ = s.capabilities_.options;
@@ -113,7 +171,7 @@ struct RemoteCalls {
     }
     auto made = std::make_unique<Instance>(
         Instance{s, std::exchange(s.waiting_, nullptr), s.capabilities_, *mesh, given});
-    const lc_status status = answer(s, *made->child, message, input(s, given, mesh), [&] {
+    const lc_status status = answer(s, *made->child, message, {given, mesh}, [&] {
       made->child->ask(protocol::ask_create(*mesh, given, made->capabilities));
       protocol::read_created(*made->child);
     });
@@ -126,7 +184,7 @@ struct RemoteCalls {
     auto& i = *static_cast<Instance*>(instance);
     const std::span depth(request->face_depth, static_cast<std::size_t>(i.mesh.face_count));
     const std::uint64_t most = i.subject.settings_.limits.memory_bytes();
-    return answer(i.subject, *i.child, message, input(i.subject, i.options, &i.mesh, depth), [&] {
+    return answer(i.subject, *i.child, message, {i.options, &i.mesh, depth}, [&] {
       i.child->ask(protocol::ask_tessellate(depth, request->threads, i.capabilities));
       if (i.subject.kind_ == RemoteSubject::Kind::kProgram) {
         protocol::read_tessellation(*i.child, i.capabilities, most, i.mesh, *request, *out);
@@ -145,8 +203,7 @@ struct RemoteCalls {
     const std::unique_ptr<Instance> i(static_cast<Instance*>(instance));
     if (!i->child->alive()) return;  // it was told when it happened
     const char* message = nullptr;
-    const Input in = input(i->subject, i->options, &i->mesh);
-    const lc_status status = answer(i->subject, *i->child, &message, in, [&] {
+    const lc_status status = answer(i->subject, *i->child, &message, {i->options, &i->mesh}, [&] {
       if (i->subject.kind_ == RemoteSubject::Kind::kProgram) {
         i->child->finish();
       } else {
@@ -202,58 +259,6 @@ std::unique_ptr<ChildProcess> RemoteSubject::start() {
   if (kind_ == Kind::kProgram) command = {"/bin/sh", "-c", what_};
   if (settings_.in_turns) command.emplace_back("--in-turns");
   return std::make_unique<ChildProcess>(command, settings_.limits, &receipt_);
-}
-
-namespace {
-
-std::uint64_t fnv1a(std::string_view text, std::uint64_t hash) {
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return hash;
-}
-
-}  // namespace
-
-std::string save_input(const std::string& folder, const Input& input) try {
-  std::string command = fmt::format("limitcheck audit {}{}{}", input.flag, input.flag.empty() ? "" : " ",
-                                    shell_word(input.what));
-  std::string rest = input.isolate ? " --isolate" : "";
-  if (!input.options.empty()) rest += fmt::format(" --options {}", shell_word(input.options));
-  if (input.limits.seconds != ProcessLimits().seconds)
-    rest += fmt::format(" --timeout {}", input.limits.seconds);
-  if (input.limits.memory_mib != ProcessLimits().memory_mib)
-    rest += fmt::format(" --memory {}", input.limits.memory_mib);
-  if (input.mesh == nullptr || folder.empty()) return fmt::format("; again with: {}{}", command, rest);
-
-  const std::filesystem::path place(folder);
-  std::filesystem::create_directories(place);
-  const data::ControlMesh mesh = control_mesh(*input.mesh);
-  const std::uint64_t hash = fnv1a(data::mesh_content(mesh, data::FileFormat::kObj), 0xcbf29ce484222325ULL);
-  const auto mesh_file = place / fmt::format("{:016x}.obj", hash);
-  data::write_mesh(mesh_file, mesh);
-  command += fmt::format(" {}", shell_word(mesh_file.string()));
-  const data::Scheme scheme =
-      input.mesh->scheme == LC_SCHEME_CATMULL_CLARK ? data::Scheme::kCatmullClark : data::Scheme::kLoop;
-  if (scheme != data::natural_scheme(mesh)) command += fmt::format(" --scheme {}", data::name_of(scheme));
-  if (!data::validate(mesh, scheme).empty())
-    return fmt::format("; again with: {}{} --must-refuse", command, rest);
-
-  if (!input.face_depth.empty()) {
-    const auto [least, most] = std::minmax_element(input.face_depth.begin(), input.face_depth.end());
-    command += fmt::format(" --depth {}", std::max(*most, 0));
-    if (*least != *most || *least < 0) {
-      std::string lines;
-      for (const std::int32_t d : input.face_depth) lines += fmt::format("{}\n", d);
-      const auto depth_file = place / fmt::format("{:016x}.depths", fnv1a(lines, hash));
-      std::ofstream out(depth_file, std::ios::binary);
-      out << lines;
-      out.close();
-      if (!out) return fmt::format("; cannot write {}", depth_file.string());
-      command += fmt::format(" --depths {}", shell_word(fmt::format("file:{}", depth_file.string())));
-    }
-  }
-  return fmt::format("; again with: {}{}", command, rest);
-} catch (const std::exception& error) {
-  return fmt::format("; its input could not be saved: {}", error.what());
 }
 
 }  // namespace limitcheck::verify

@@ -2,10 +2,8 @@
 // Subjects that run in a process of their own, behind the same plug-in interface as all others.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -65,19 +63,5 @@ class RemoteSubject {
   bool has_answered_ = false;
   std::optional<Containment> containment_;
 };
-
-struct Input {
-  std::string flag, what;  // --program and its command; or a library's file or a built-in subject's name
-  bool isolate = false;    // a built-in subject
-  std::string options;
-  ProcessLimits limits;
-  const lc_mesh* mesh = nullptr;             // none: it broke down before it got one
-  std::span<const std::int32_t> face_depth;  // none: it was not asked to tessellate
-};
-
-/// Saves the control mesh (OBJ, bit for bit) and, unless all are the same, the depths of the faces (one per
-/// line) in `folder`, under names made from their contents, so that the same breakdown is kept once. Returns
-/// "; again with: limitcheck audit ...", or why nothing could be saved. Never throws.
-std::string save_input(const std::string& folder, const Input& input);
 
 }  // namespace limitcheck::verify

@@ -134,11 +134,13 @@ void each(Vector& p, One one) {
 inline Vector difference(const Vector& p, const Vector& q) {
   return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
 }
-/// Of unit length.
-inline Vector unit_cross(const Vector& p, const Vector& q) {
-  const Vector n{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+inline Vector unit(const Vector& n) {
   const double size = std::hypot(n[0], n[1], n[2]);
   return {n[0] / size, n[1] / size, n[2] / size};
+}
+/// Of unit length.
+inline Vector unit_cross(const Vector& p, const Vector& q) {
+  return unit({p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]});
 }
 
 /// Along the normal, by a share of the box.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace limitcheck::verify {
@@ -126,18 +127,14 @@ double MutantTags::edge_share(const Topology& topology, std::int32_t e) const {
 }
 
 double MutantTags::old_share(const Topology& topology, std::int32_t v) const {
-  double sum = 0, most = 0;
-  int count = 0;
-  const auto add = [&](double s) {
-    sum += s;
-    most = std::max(most, s);
-    ++count;
-  };
-  if (is_semi_sharp(vertex_[v]) && fallen(vertex_[v]) <= 0) add(vertex_[v]);
+  std::vector<double> ending;
+  if (is_semi_sharp(vertex_[v]) && fallen(vertex_[v]) <= 0) ending.push_back(vertex_[v]);
   for (const std::int32_t e : topology.sector(v).edges)
-    if (is_semi_sharp(edge(topology, e)) && fallen(topology, e, v) <= 0) add(edge(topology, e));
-  if (count == 0) return 1;
-  const double share = std::min(1., is("blend_by_the_sharpest") ? most : sum / count);
+    if (is_semi_sharp(edge(topology, e)) && fallen(topology, e, v) <= 0) ending.push_back(edge(topology, e));
+  if (ending.empty()) return 1;
+  const double mean = std::accumulate(ending.begin(), ending.end(), 0.) / static_cast<double>(ending.size());
+  const double most = *std::max_element(ending.begin(), ending.end());
+  const double share = std::min(1., is("blend_by_the_sharpest") ? most : mean);
   if (is("no_blend")) return 0;
   return is("blend_reversed") ? 1 - share : share;
 }

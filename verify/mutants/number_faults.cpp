@@ -67,8 +67,7 @@ std::vector<Change> faults_of_numbers() {
                Vector& n = out.normals[v];
                const Vector aside = unit_cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
                add(n, aside, 1e-3);
-               const double size = std::hypot(n[0], n[1], n[2]);
-               each(n, [&](double x) { return x / size; });
+               n = unit(n);
              }),
       vertex("boundary_normals_inside", "normals point inside at boundary vertices of four faces or more",
              "normals",
@@ -98,9 +97,7 @@ std::vector<Change> faults_of_numbers() {
                   const std::array<std::uint32_t, 3> l{p.denominator - p.i - p.j, p.i, p.j};
                   Vector sum{};
                   for (int k = 0; k < 3; ++k) add(sum, before.normals[find.corner(p.face, k)], l[k]);
-                  const double size = std::hypot(sum[0], sum[1], sum[2]);
-                  each(sum, [&](double x) { return x / size; });
-                  out.normals[v] = sum;
+                  out.normals[v] = unit(sum);
                 }
               }),
       // Relations.

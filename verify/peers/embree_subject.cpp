@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -143,8 +144,7 @@ class EmbreeSubject {
     constexpr int kMostCorners = 15, kMostFaces = 64, kMostPoints = 128;
     struct Ring {
       int faces = 0, points = 0;
-      std::vector<std::uint32_t> after,
-          before;  // neighbours, by the faces that have the edge to and from them
+      std::set<std::int32_t> neighbours = {};
     };
     std::vector<Ring> rings(static_cast<std::size_t>(mesh_.vertex_count));
     for (std::int64_t f = 0, first = 0; f < mesh_.face_count; first += mesh_.face_sizes[f++]) {
@@ -154,14 +154,11 @@ class EmbreeSubject {
       for (int k = 0; k < n; ++k) {
         Ring& ring = rings[static_cast<std::size_t>(mesh_.corners[first + k])];
         ring.faces += 1, ring.points += n - 2;
-        ring.after.push_back(static_cast<std::uint32_t>(mesh_.corners[first + (k + 1) % n]));
-        ring.before.push_back(static_cast<std::uint32_t>(mesh_.corners[first + (k + n - 1) % n]));
+        ring.neighbours.insert({mesh_.corners[first + (k + 1) % n], mesh_.corners[first + (k + n - 1) % n]});
       }
     }
     for (Ring& ring : rings) {
-      std::sort(ring.after.begin(), ring.after.end());
-      std::sort(ring.before.begin(), ring.before.end());
-      if (ring.after != ring.before) ring.faces += 1, ring.points += 2;
+      if (std::ssize(ring.neighbours) > ring.faces) ring.faces += 1, ring.points += 2;  // on the boundary
       if (ring.faces > kMostFaces || ring.points > kMostPoints)
         throw SubjectError(
             LC_NOT_SUPPORTED,

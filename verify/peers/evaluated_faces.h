@@ -73,14 +73,16 @@ inline FacePattern quads_pattern(int corners, int depth) {
 /// The pattern of each face of a request, made once for each kind of face and depth.
 class FacePatterns {
  public:
+  struct Face {
+    const FacePattern* pattern;  // nullptr: culled
+    std::int64_t first_vertex, first_triangle;
+  };
+
   /// `triangle(depth)` makes that of Loop's triangles.
   template <class Triangle>
-  FacePatterns(const lc_mesh& mesh, const lc_request& request, Triangle&& triangle) : of_(face_count(mesh)) {
-    first_vertex_.assign(of_.size() + 1, 0);
-    first_triangle_.assign(of_.size() + 1, 0);
-    for (std::size_t f = 0; f < of_.size(); ++f) {
-      first_vertex_[f + 1] = first_vertex_[f];
-      first_triangle_[f + 1] = first_triangle_[f];
+  FacePatterns(const lc_mesh& mesh, const lc_request& request, Triangle&& triangle) {
+    for (std::int64_t f = 0; f < mesh.face_count; ++f) {
+      Face& face = faces_.emplace_back(Face{nullptr, vertices_, triangles_});
       const int depth = request.face_depth[f], corners = mesh.face_sizes[f];
       if (depth < 0) continue;
       auto place = patterns_.find({corners, depth});
@@ -90,27 +92,20 @@ class FacePatterns {
                 .try_emplace({corners, depth},
                              mesh.scheme == LC_SCHEME_LOOP ? triangle(depth) : quads_pattern(corners, depth))
                 .first;
-      of_[f] = &place->second;
-      first_vertex_[f + 1] += static_cast<std::int64_t>(of_[f]->points.size());
-      first_triangle_[f + 1] += static_cast<std::int64_t>(of_[f]->triangles.size());
+      face.pattern = &place->second;
+      vertices_ += std::ssize(face.pattern->points);
+      triangles_ += std::ssize(face.pattern->triangles);
     }
   }
-  std::int64_t faces() const { return static_cast<std::int64_t>(of_.size()); }
-  /// nullptr of a culled face.
-  const FacePattern* of(std::int64_t face) const { return of_[static_cast<std::size_t>(face)]; }
-  std::int64_t first_vertex(std::int64_t face) const { return first_vertex_[static_cast<std::size_t>(face)]; }
-  std::int64_t first_triangle(std::int64_t face) const {
-    return first_triangle_[static_cast<std::size_t>(face)];
-  }
-  std::int64_t vertices() const { return first_vertex_.back(); }
-  std::int64_t triangles() const { return first_triangle_.back(); }
+  std::int64_t faces() const { return std::ssize(faces_); }
+  const Face& of(std::int64_t face) const { return faces_[static_cast<std::size_t>(face)]; }
+  std::int64_t vertices() const { return vertices_; }
+  std::int64_t triangles() const { return triangles_; }
 
  private:
-  static std::size_t face_count(const lc_mesh& mesh) { return static_cast<std::size_t>(mesh.face_count); }
-
   std::map<std::pair<int, int>, FacePattern> patterns_;  // by corners and depth
-  std::vector<const FacePattern*> of_;
-  std::vector<std::int64_t> first_vertex_, first_triangle_;
+  std::vector<Face> faces_;
+  std::int64_t vertices_ = 0, triangles_ = 0;
 };
 
 /// Tessellates each face by its pattern. `surface()` makes, once for each range of faces, what has
@@ -125,11 +120,10 @@ void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const l
   faces_in_parallel(patterns.faces(), request.threads, [&](std::int64_t begin, std::int64_t end) {
     auto here = surface();
     for (std::int64_t f = begin; f < end; ++f) {
-      const FacePattern* const pattern = patterns.of(f);
+      auto [pattern, vertex, triangle] = patterns.of(f);
       if (pattern == nullptr) continue;
       const auto face = static_cast<std::int32_t>(f);
       here.begin(face);
-      std::int64_t vertex = patterns.first_vertex(f), triangle = patterns.first_triangle(f);
       const auto first = static_cast<std::uint32_t>(vertex);
       const auto denominator = static_cast<Real>(pattern->denominator);
       for (const FaceDomain::Point& p : pattern->points) {

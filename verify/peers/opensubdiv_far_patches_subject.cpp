@@ -81,7 +81,7 @@ class StencilPoints {
     typename Factory::LocationArrayVec locations;
     std::size_t at = 0;
     for (std::int64_t f = 0; f < patterns.faces(); ++f) {
-      const FacePattern* const pattern = patterns.of(f);
+      const FacePattern* const pattern = patterns.of(f).pattern;
       if (pattern == nullptr) continue;
       for (const FaceDomain::Point& p : pattern->points) {
         s[at] = static_cast<Real>(p.i) / static_cast<Real>(pattern->denominator);
@@ -109,7 +109,9 @@ class StencilPoints {
   class Reader {
    public:
     explicit Reader(const StencilPoints& points) : points_(points) {}
-    void begin(std::int32_t face) { next_ = static_cast<std::size_t>(points_.patterns_.first_vertex(face)); }
+    void begin(std::int32_t face) {
+      next_ = static_cast<std::size_t>(points_.patterns_.of(face).first_vertex);
+    }
     void evaluate(std::int32_t, const Real*, Real* position, Real* du, Real* dv) {
       for (std::size_t c = 0; c < 3; ++c) {
         position[c] = points_.position_[next_].x[c];

@@ -135,19 +135,31 @@ TEST(SharpEdges_OpenSubdiv, IsTheReferenceOnEveryShapeOfTriangles) {
   expect_a_few_ulp(smooth);
 }
 
-// Sharpnesses are multiples of 1/16, which OpenSubdiv's floats hold at every level.
-TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithUniformCreasing) {
+// The points of so many steps of meshes with random tags. By Chaikin's creasing these are below 1: above, OpenSubdiv's
+// weights of edges are wrong (see below).
+double worst_of_random_meshes(data::Creasing creasing, int depth) {
+  const auto tagged = [&](const data::ControlMesh& mesh, std::uint64_t seed) {
+    data::ControlMesh result = data::with_random_sharpness(mesh, seed);
+    result.sharpness.creasing = creasing;
+    for (auto& e : result.sharpness.edges)
+      if (creasing == data::Creasing::kChaikin && e.sharpness < 10) e.sharpness /= 4;
+    return result;
+  };
   double worst = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
-    mesh.sharpness.creasing = data::Creasing::kUniform;
-    worst = std::max(worst, worst_difference<Quads>(mesh, 5));
+    data::ControlMesh mesh = tagged(data::mixed_mesh(seed, {.faces = 60}), seed);
+    worst = std::max(worst, worst_difference<Quads>(mesh, depth));
     mesh.sharpness.triangles = data::TriangleRule::kSmooth;
     worst = std::max(worst, worst_difference<Quads>(mesh, 2));
-    mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
-    mesh.sharpness.creasing = data::Creasing::kUniform;
-    worst = std::max(worst, worst_difference<Triangles>(mesh, 5));
+    mesh = tagged(data::random_mesh(seed, {.faces = 60}), seed);
+    worst = std::max(worst, worst_difference<Triangles>(mesh, depth));
   }
+  return worst;
+}
+
+// Sharpnesses are multiples of 1/16, which OpenSubdiv's floats hold at every level.
+TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithUniformCreasing) {
+  double worst = worst_of_random_meshes(data::Creasing::kUniform, 5);
   for (const auto& mesh : {data::creased_cube(2), data::creased_cube(10), data::dart(5, false),
                            data::corner(3, false), data::crease_ring(4)})
     worst = std::max(worst, worst_difference<Quads>(mesh, 5));
@@ -157,20 +169,7 @@ TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithUniformCreasing) {
 
 // Chaikin's means are rounded to float there; 1e-7 of the weights.
 TEST(SharpEdges_OpenSubdiv, HaveTheSameRefinedPointsWithChaikinsUpToItsFloats) {
-  double worst = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    auto mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
-    mesh.sharpness.creasing = data::Creasing::kChaikin;
-    // Below 1: above, OpenSubdiv's weights of edges are wrong (see below).
-    for (auto& e : mesh.sharpness.edges)
-      if (e.sharpness < 10) e.sharpness /= 4;
-    worst = std::max(worst, worst_difference<Quads>(mesh, 4));
-    auto triangles = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
-    triangles.sharpness.creasing = data::Creasing::kChaikin;
-    for (auto& e : triangles.sharpness.edges)
-      if (e.sharpness < 10) e.sharpness /= 4;
-    worst = std::max(worst, worst_difference<Triangles>(triangles, 4));
-  }
+  const double worst = worst_of_random_meshes(data::Creasing::kChaikin, 4);
   std::printf("largest difference: %.1e\n", worst);
   EXPECT_LE(worst, 1e-6);
 }

@@ -32,7 +32,6 @@ class RefinementTracker {
   template <std::size_t N>
   void step(std::int64_t vertex_count, const std::vector<std::array<std::uint32_t, N>>& faces);
 
-  std::int64_t vertex_count() const { return vertex_count_; }
   /// Every face in triangles around its first corner, and the control face of each.
   std::vector<std::array<std::uint32_t, 3>> triangles() const;
   std::vector<std::int32_t> triangle_face() const;

@@ -77,15 +77,14 @@ Image normal_cone(Studio& studio) {
       last = rim;
     }
 
-    fast::Camera camera;
-    camera.target = centre + .25 * reach * axis;
-    camera.eye = centre + 2.3 * reach * (.55 * axis + .8 * side);
-    camera.up = axis;
-    camera.near = 1e-3 * reach;
-    camera.width = camera.height = kSize;
-    Appearance appearance;
-    appearance.wireframe = appearance.backfaces = true;
-    images.push_back(studio.shot(fan, camera, appearance, {{cone, kRed}, {normals, kBlue}}));
+    const fast::Camera camera{.eye = centre + 2.3 * reach * (.55 * axis + .8 * side),
+                              .target = centre + .25 * reach * axis,
+                              .up = axis,
+                              .width = kSize,
+                              .height = kSize,
+                              .near = 1e-3 * reach};
+    images.push_back(
+        studio.shot(fan, camera, {.wireframe = true, .backfaces = true}, {{cone, kRed}, {normals, kBlue}}));
     refined.refine();
   }
   return beside(images);

@@ -24,10 +24,9 @@ using verify::viewer;
 
 /// One frame for the viewer, with provenance.
 inline fast::DrawList<float> frame_seen(const data::ControlMesh& mesh, const fast::DepthOptions& depth,
-                                        fast::TessellatorOptions options = {}) {
-  options.provenance = true;
+                                        const fast::Camera& seen_by = viewer(0)) {
   fast::DrawList<float> frame;
-  fast::Tessellator<float>(mesh, options).frame(depth, viewer(0), frame);
+  fast::Tessellator<float>(mesh, {.provenance = true}).frame(depth, seen_by, frame);
   return frame;
 }
 

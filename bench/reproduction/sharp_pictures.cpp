@@ -104,11 +104,8 @@ Image open_crease() {
   for (const data::SharpEdge& e : mesh.sharpness.edges)
     crease.segments.push_back({fast::to_point(mesh.positions[e.a]), fast::to_point(mesh.positions[e.b])});
   fast::Camera camera = camera_at(30, 1.05 * data::box_diagonal(mesh));
-  Appearance control, map;
-  control.wireframe = true;
-  map.colour = [&](const fast::Draw& draw) { return colour.at(draw.first); };
-  return beside({studio.shot(flat_faces(mesh), camera, control, {crease}), studio.shot(surface, camera, {}),
-                 studio.shot(missed, camera, map)});
+  return beside({studio.shot(flat_faces(mesh), camera, {.wireframe = true}, {crease}),
+                 studio.shot(surface, camera, {}), studio.shot(missed, camera, {.colour = painted(colour)})});
 }
 
 Image adaptive_creases() {
@@ -120,15 +117,10 @@ Image adaptive_creases() {
   fast::Camera close = camera_at(25, .14 * height);
   close.target = {.09 * height, .112 * height, .19 * height};
   close.eye = close.target + close.eye;
-  fast::DepthOptions adaptive = strategy(fast::Strategy::kCombined);
-  adaptive.target_pixels = 40;
-  adaptive.angle_front = adaptive.angle_silhouette = 8;
+  const fast::DepthOptions adaptive{
+      .strategy = fast::Strategy::kCombined, .target_pixels = 40, .angle_front = 8, .angle_silhouette = 8};
   const auto shot = [&](const fast::Camera& camera, fast::Repair repair) {
-    fast::CrackOptions cracks;
-    cracks.repair = repair;
-    Appearance appearance = by_depth(true);
-    appearance.backfaces = true;  // what shows through a crack is the inside, in red
-    return studio.shot(studio.frame(adaptive, whole, cracks), camera, appearance);
+    return studio.shot(studio.frame(adaptive, whole, {.repair = repair}), camera, with_inside());
   };
   return beside(
       {shot(whole, fast::Repair::kFan), shot(close, fast::Repair::kNone), shot(close, fast::Repair::kFan)});

@@ -21,9 +21,7 @@ fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
     fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);
     n = (1 / length(n)) * n;
-    for (const auto& q : p)
-      list.vertices.push_back({{static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
-                               {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}});
+    for (const auto& q : p) list.vertices.push_back(vertex(q, n));
   }
   list.draws.push_back(
       {0, static_cast<std::int32_t>(list.vertices.size()), 0, 0, 0, fast::DrawMode::kTriangles});

@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -30,18 +31,13 @@ inline fast::DrawList<float> frame_seen(const data::ControlMesh& mesh, const fas
   return frame;
 }
 
-struct NamedStrategy {
-  std::string name;
-  fast::DepthOptions options;
-};
-
 /// uniform-1 .. uniform-5, project-sphere, combined.
-inline std::vector<NamedStrategy> strategies() {
-  std::vector<NamedStrategy> list;
+inline std::vector<std::pair<std::string, fast::DepthOptions>> strategies() {
+  std::vector<std::pair<std::string, fast::DepthOptions>> list;
   for (int depth = 1; depth <= 5; ++depth)
-    list.push_back({"uniform-" + std::to_string(depth), verify::uniform(depth)});
+    list.emplace_back("uniform-" + std::to_string(depth), verify::uniform(depth));
   for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined})
-    list.push_back({std::string(fast::name(strategy)), verify::adaptive(strategy, 60)});
+    list.emplace_back(fast::name(strategy), verify::adaptive(strategy, 60));
   return list;
 }
 

@@ -22,18 +22,12 @@ using verify::cross, verify::norm, verify::Vector, verify::operator-;
 
 constexpr int kDepth = 4;
 
-fast::SurfaceVertex<float> vertex(const Vector& p, const Vector& n) {
-  const auto narrow = [](const Vector& v) {
-    return fast::Vec3<float>{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-  };
-  return {narrow(p), narrow(n)};
-}
-
 void add(fast::DrawList<float>& list, std::int32_t face, const std::array<Vector, 3>& p,
          const std::array<Vector, 3>& n) {
   list.draws.push_back(
       {static_cast<std::int64_t>(list.vertices.size()), 3, 1, face, -1, fast::DrawMode::kTriangles});
-  for (std::size_t k = 0; k < 3; ++k) list.vertices.push_back(vertex(p[k], n[k]));
+  for (std::size_t k = 0; k < 3; ++k)
+    list.vertices.push_back(vertex(fast::to_point(p[k]), fast::to_point(n[k])));
 }
 
 fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {

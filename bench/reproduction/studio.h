@@ -49,6 +49,13 @@ inline Colour heat(double t) {
   return c;
 }
 
+inline fast::SurfaceVertex<float> vertex(const fast::Point3& position, const fast::Point3& normal) {
+  const auto narrow = [](const fast::Point3& p) {
+    return fast::Vec3<float>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
+  return {narrow(position), narrow(normal)};
+}
+
 struct Lines {
   std::vector<Segment> segments;
   Colour colour;

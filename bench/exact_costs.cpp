@@ -64,33 +64,33 @@ Books& books() {
   return all;
 }
 
-void enter(void* block, std::size_t size) {
+template <class Change>
+void change_books(void* block, const Change& change) {
   if (!counting || inside || !block) return;
   inside = true;
   {
-    Books& b = books();
-    const std::lock_guard lock(b.mutex);
-    b.sizes[block] = size;
-    ++b.sum.count;
-    b.sum.kept += static_cast<std::int64_t>(size);
-    b.sum.peak = std::max(b.sum.peak, b.sum.kept);
+    const std::lock_guard lock(books().mutex);
+    change(books());
   }
   inside = false;
 }
 
+void enter(void* block, std::size_t size) {
+  change_books(block, [&](Books& b) {
+    b.sizes[block] = size;
+    ++b.sum.count;
+    b.sum.kept += static_cast<std::int64_t>(size);
+    b.sum.peak = std::max(b.sum.peak, b.sum.kept);
+  });
+}
+
 void strike_out(void* block) {
-  if (!counting || inside || !block) return;
-  inside = true;
-  {
-    Books& b = books();
-    const std::lock_guard lock(b.mutex);
+  change_books(block, [&](Books& b) {
     const auto found = b.sizes.find(block);
-    if (found != b.sizes.end()) {
-      b.sum.kept -= static_cast<std::int64_t>(found->second);
-      b.sizes.erase(found);
-    }
-  }
-  inside = false;
+    if (found == b.sizes.end()) return;
+    b.sum.kept -= static_cast<std::int64_t>(found->second);
+    b.sizes.erase(found);
+  });
 }
 
 /// Of all threads, while work runs. One at a time.
@@ -205,49 +205,47 @@ void add_allocations(Costs& costs, const Shape& shape, const std::vector<bench::
   }
 }
 
-/// What is kept of the control mesh before the first point, and the most that making it takes.
+/// Makes what is kept of the control mesh before the first point, and counts it and the most that making it takes.
+template <class T, class... From>
+void add_made(Costs& costs, const std::string& what, const Shape& shape, std::optional<T>& part,
+              const From&... from) {
+  const bench::Allocations made = bench::count_allocations([&] { part.emplace(from...); });
+  const std::string tail = fmt::format("/{}/{}/faces:{}", what, shape.first, shape.second.faces.size());
+  costs["bytes" + tail] = made.kept;
+  costs["bytes-while-made" + tail] = made.peak;
+}
+
 void add_prepass(Costs& costs, const Shape& shape) {
-  const data::ControlMesh& mesh = shape.second;
-  const std::string tail = fmt::format("/{}/faces:{}", shape.first, mesh.faces.size());
-  const auto add = [&](const std::string& what, const bench::Allocations& made) {
-    costs["bytes/" + what + tail] = made.kept;
-    costs["bytes-while-made/" + what + tail] = made.peak;
-  };
   std::optional<fast::Adjacency> adjacency;
-  add("adjacency", bench::count_allocations([&] { adjacency.emplace(mesh); }));
+  add_made(costs, "adjacency", shape, adjacency, shape.second);
   std::optional<rs::RowStream> stream;
-  add("prepass/row-stream", bench::count_allocations([&] { stream.emplace(mesh, *adjacency); }));
-  const auto positions = fast::positions_of<float>(mesh);
+  add_made(costs, "prepass/row-stream", shape, stream, shape.second, *adjacency);
   std::optional<fast::PreparedMesh<float>> prepared;
-  add("prepass/sliding-window", bench::count_allocations([&] { prepared.emplace(*adjacency, positions); }));
+  add_made(costs, "prepass/sliding-window", shape, prepared, *adjacency,
+           fast::positions_of<float>(shape.second));
+}
+
+std::vector<fast::Vec3<float>> positions_of(const fast::QuadMesh& quads) {
+  std::vector<fast::Vec3<float>> positions;
+  for (const auto& p : quads.positions)
+    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  return positions;
 }
 
 /// The same of quads.
 void add_quad_prepass(Costs& costs, const Shape& shape) {
-  const data::ControlMesh& mesh = shape.second;
-  const std::string tail = fmt::format("/{}/faces:{}", shape.first, mesh.faces.size());
-  const auto add = [&](const std::string& what, const bench::Allocations& made) {
-    costs["bytes/" + what + tail] = made.kept;
-    costs["bytes-while-made/" + what + tail] = made.peak;
-  };
   std::optional<fast::QuadMesh> quads;
-  add("quad-mesh", bench::count_allocations([&] { quads.emplace(mesh); }));
+  add_made(costs, "quad-mesh", shape, quads, shape.second);
   std::optional<rs::QuadRowStream> stream;
-  add("prepass/row-stream", bench::count_allocations([&] { stream.emplace(*quads); }));
-  std::vector<fast::Vec3<float>> positions;
-  for (const auto& p : quads->positions)
-    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  add_made(costs, "prepass/row-stream", shape, stream, *quads);
   std::optional<fast::PreparedQuads<float>> prepared;
-  add("prepass/sliding-window", bench::count_allocations([&] { prepared.emplace(*quads, positions); }));
+  add_made(costs, "prepass/sliding-window", shape, prepared, *quads, positions_of(*quads));
 }
 
 /// What the window computes and holds for quad 0, as the paper counts it.
 void add_quad_window(Costs& costs, const Shape& shape) {
   const fast::QuadMesh quads(shape.second);
-  std::vector<fast::Vec3<float>> positions;
-  for (const auto& p : quads.positions)
-    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-  const fast::PreparedQuads<float> prepared(quads, positions);
+  const fast::PreparedQuads<float> prepared(quads, positions_of(quads));
   for (const int depth : {0, 1, 3, 5}) {
     fast::QuadWindow<float, fast::LimitSurface<float>, fast::Counting> window(depth,
                                                                               quads.adjacency.max_valence());

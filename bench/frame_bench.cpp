@@ -8,6 +8,8 @@
 //   deforming             as patches, but the control points move before each frame
 //   deforming:depths, still:depths   the same at given depths, with and without moving
 //   bfr                   OpenSubdiv's Bfr, the points of the same faces at the same depths
+// And what a frame costs before its first point is computed: adjacency, rings, the per-mesh part of the heuristics, the
+// depths of one view, the pairing. Names: stage/variant/bumpy/faces:N; `per_face` is the time per control face.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -16,10 +18,13 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/contenders/contender.h"
 #include "data/generators/bumpy_sphere.h"
+#include "fast/plan/printed_rules.h"
+#include "fast/stream/gather/rings.h"
 #include "fast/stream/stream_tessellator.h"
 
 namespace {
@@ -27,6 +32,7 @@ namespace {
 using namespace limitcheck;
 using benchmark::Counter;
 
+/// A hull of half a million points takes seconds, so each size is made once, when first needed.
 const data::ControlMesh& mesh_of(int faces) {
   static std::map<int, data::ControlMesh> known;
   const auto [at, fresh] = known.try_emplace(faces);
@@ -37,9 +43,7 @@ const data::ControlMesh& mesh_of(int faces) {
 /// The camera in step i of a walk around the mesh, so many degrees a step.
 fast::Camera turned(std::int64_t i, double degrees) {
   const double angle = static_cast<double>(i) * degrees * std::numbers::pi / 180;
-  fast::Camera camera;
-  camera.eye = {4 * std::sin(angle), 0, 4 * std::cos(angle)};
-  return camera;
+  return {.eye = {4 * std::sin(angle), 0, 4 * std::cos(angle)}};
 }
 
 struct Case {
@@ -49,25 +53,13 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  const auto uniform = [](int depth) {
-    fast::DepthOptions o;
-    o.strategy = fast::Strategy::kUniform;
-    o.depth = depth;
-    return o;
-  };
-  const auto adaptive = [](fast::Strategy strategy, double pixels) {
-    fast::DepthOptions o;
-    o.strategy = strategy;
-    o.target_pixels = pixels;
-    return o;
-  };
-  const fast::DepthOptions combined = adaptive(fast::Strategy::kCombined, fast::DepthOptions{}.target_pixels);
-  return {{"project-sphere:60", 800, adaptive(fast::Strategy::kProjectSphere, 60)},
-          {"uniform:1", 800, uniform(1)},
-          {"uniform:3", 800, uniform(3)},
-          {"uniform:5", 800, uniform(5)},
-          {"combined", 4000, combined},
-          {"project-sphere:10", 4000, adaptive(fast::Strategy::kProjectSphere, 10)}};
+  using enum fast::Strategy;
+  return {{"project-sphere:60", 800, {.strategy = kProjectSphere, .target_pixels = 60}},
+          {"uniform:1", 800, {.strategy = kUniform, .depth = 1}},
+          {"uniform:3", 800, {.strategy = kUniform, .depth = 3}},
+          {"uniform:5", 800, {.strategy = kUniform, .depth = 5}},
+          {"combined", 4000, {.strategy = kCombined}},
+          {"project-sphere:10", 4000, {.strategy = kProjectSphere, .target_pixels = 10}}};
 }
 
 void count(benchmark::State& state, double triangles, Counter::Flags flags) {
@@ -77,9 +69,7 @@ void count(benchmark::State& state, double triangles, Counter::Flags flags) {
 
 template <class Output>
 void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
-  fast::TessellatorOptions options;
-  options.threads = threads;
-  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), options);
+  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), {.threads = threads});
   fast::FrameStats stats;
   double triangles = 0;
   for (std::int64_t i = 0; i < 360; i += 30) tessellator.frame(c.strategy, turned(i, 1), out);
@@ -106,9 +96,7 @@ std::vector<std::vector<std::array<double, 3>>> breaths(const data::ControlMesh&
 
 /// `moves`: else the frames are as they would be if the points had not moved.
 void deforming(benchmark::State& state, const Case& c, bool moves, bool same_depths) {
-  fast::TessellatorOptions options;
-  options.threads = 1;
-  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), options);
+  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), {.threads = 1});
   const auto points = breaths(mesh_of(c.faces));
   fast::PatchMesh<float> out;
   tessellator.frame(c.strategy, turned(0, 1), out);
@@ -134,7 +122,7 @@ void bfr(benchmark::State& state, const Case& c) {
   fast::PatchMesh<float> out;
   const fast::FrameStats stats = tessellator.frame(c.strategy, turned(0, 1), out);
   const auto peer = bench::bfr_frame(mesh_of(c.faces), tessellator.last_pairing().depth);
-  for (auto _ : state) peer->run();
+  for (auto _ : state) peer();
   count(state, static_cast<double>(stats.triangles), Counter::kIsIterationInvariantRate);
 }
 
@@ -143,6 +131,55 @@ template <class Function>
 void add(const std::string& name, Function function) {
   auto* one = benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMicrosecond);
   if (!name.ends_with("threads:1")) one->UseRealTime();
+}
+
+/// `stage(mesh, adjacency, heuristics)` returns what is timed.
+template <class Stage>
+void add_set_up(const std::string& name, Stage stage) {
+  for (const int faces : {800, 4000, 100'000, 1'000'000})
+    benchmark::RegisterBenchmark(
+        (name + "/bumpy/faces:" + std::to_string(faces)).c_str(), [=](benchmark::State& state) {
+          const data::ControlMesh& mesh = mesh_of(faces);
+          const fast::Adjacency adjacency(mesh);
+          const fast::DepthHeuristics heuristics(mesh, adjacency);
+          const auto run = stage(mesh, adjacency, heuristics);
+          run();  // lazily prepared tables are not part of a frame
+          for (auto _ : state) run();
+          state.counters["per_face"] =
+              Counter(static_cast<double>(state.iterations()) * faces, Counter::kIsRate | Counter::kInvert);
+        });
+}
+
+void add_set_ups() {
+  using fast::Strategy, fast::DepthOptions, benchmark::DoNotOptimize;
+  add_set_up("adjacency/build", [](const auto& mesh, const auto&, const auto&) {
+    return [&] { DoNotOptimize(fast::Adjacency(mesh).max_valence()); };
+  });
+  add_set_up("rings/build", [](const auto& mesh, const auto& adjacency, const auto&) {
+    return [&] { DoNotOptimize(fast::row_stream::Rings(mesh, adjacency).degenerate_normals()); };
+  });
+  add_set_up("depth/per-mesh", [](const auto& mesh, const auto& adjacency, const auto&) {
+    return [&] { DoNotOptimize(fast::DepthHeuristics(mesh, adjacency).degenerate_normals()); };
+  });
+  add_set_up("depth/per-mesh-with-cones", [](const auto& mesh, const auto& adjacency, const auto&) {
+    return [&] { DoNotOptimize(fast::DepthHeuristics(mesh, adjacency).cone_cosine(0, 0)); };
+  });
+  for (const Strategy s : {Strategy::kUniform, Strategy::kRandom, Strategy::kProjectSphere,
+                           Strategy::kCurvature, Strategy::kCombined}) {
+    const std::string name(fast::name(s));
+    add_set_up("depth/" + name, [s](const auto&, const auto&, const auto& heuristics) {
+      return [&, s] { DoNotOptimize(heuristics.depths(DepthOptions{.strategy = s}, {}).data()); };
+    });
+    if (s == Strategy::kProjectSphere || s == Strategy::kCurvature) continue;
+    for (const auto& [rule, word] :
+         {std::pair{fast::PairingRule::kCorrected, "corrected-"}, {fast::PairingRule::kPrinted, "printed-"}})
+      add_set_up("pairing/" + (word + name), [s, rules = fast::PrintedRules{rule}](
+                                                 const auto&, const auto& adjacency, const auto& heuristics) {
+        return [&, rules, depth = heuristics.depths(DepthOptions{.strategy = s}, {})] {
+          DoNotOptimize(fast::pair_faces(adjacency, depth, rules).singletons);
+        };
+      });
+  }
 }
 
 }  // namespace
@@ -171,6 +208,7 @@ int main(int argc, char** argv) {
     add("bfr/" + name + "/threads:1", [=](auto& s) { bfr(s, c); });
     add("indexed/" + name + "/threads:1", [=](auto& s) { frames<fast::IndexedMesh<float>>(s, c, 1); });
   }
+  add_set_ups();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

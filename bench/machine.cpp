@@ -6,10 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <new>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/machine.cpp"
@@ -40,18 +38,8 @@ namespace limitcheck::bench {
 
 HWY_EXPORT(write);
 
-WriteOnly::WriteOnly(std::size_t bytes)
-    : memory_(static_cast<float*>(std::aligned_alloc(64, bytes))), bytes_(bytes) {
-  if (!memory_) throw std::bad_alloc();
-  std::memset(memory_, 0, bytes);
-}
-
-WriteOnly::~WriteOnly() {
-  std::free(memory_);
-}
-
-void WriteOnly::run(bool streaming) {
-  HWY_DYNAMIC_DISPATCH(write)(memory_, bytes_ / sizeof(float), streaming);
+void write_all(std::span<float> memory, bool streaming) {
+  HWY_DYNAMIC_DISPATCH(write)(memory.data(), memory.size(), streaming);
 }
 
 namespace {

@@ -36,18 +36,15 @@ void evaluate(benchmark::State& state, Order order) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-void stam_position_normal(benchmark::State& state) {
-  evaluate(state, Order::kFirst);
-}
-void stam_second(benchmark::State& state) {
-  evaluate(state, Order::kSecond);
-}
-BENCHMARK(stam_position_normal)
+BENCHMARK_CAPTURE(evaluate, first, Order::kFirst)
     ->Name("reference/stam/position+normal/bumpy")
     ->ArgName("faces")
     ->Arg(800)
     ->Arg(4000);
-BENCHMARK(stam_second)->Name("reference/stam/position+normal+second/bumpy")->ArgName("faces")->Arg(4000);
+BENCHMARK_CAPTURE(evaluate, second, Order::kSecond)
+    ->Name("reference/stam/position+normal+second/bumpy")
+    ->ArgName("faces")
+    ->Arg(4000);
 
 void stam_set_up(benchmark::State& state) {
   const data::ControlMesh mesh = bumpy(state.range(0));

@@ -5,6 +5,7 @@
 // bytes of evaluated points, 24 each; peak: bytes by which the process grows in one run from scratch, the
 // control mesh not counted.
 #include <benchmark/benchmark.h>
+#include <hwy/aligned_allocator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,124 +42,112 @@ class RatioTable : public benchmark::ConsoleReporter {
   RatioTable(data::Scheme scheme, std::string best, int all_threads)
       : scheme_(scheme), best_(std::move(best)), all_threads_(all_threads) {}
 
-  void ReportRuns(const std::vector<Run>& runs) override;
-  void Finalize() override;
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+      for (const auto& [counter, value] : run.counters) {
+        double& best = rates_[counter + " " + run.run_name.function_name];
+        best = std::max(best, static_cast<double>(value));
+      }
+    }
+  }
+
+  void Finalize() override {
+    ConsoleReporter::Finalize();
+    std::printf(
+        "\nratios of rates, best of all repetitions (and the least wanted); one thread unless said\n");
+    if (scheme_ == data::Scheme::kLoop) {
+      print_triangles();
+    } else {
+      print_quads();
+    }
+    std::printf("\n");
+  }
 
  private:
-  double rate(const std::string& counter, const std::string& name) const;  // 0: did not run
-  double fastest_peer(const std::string& use, const Shape& shape, int depth) const;
-  void print_triangles() const;
-  void print_quads() const;
-  void print(const char* what, double a, double b, double least) const;
+  /// 0: did not run.
+  double rate(const std::string& counter, const std::string& name) const {
+    const auto found = rates_.find(counter + " " + name);
+    return found == rates_.end() ? 0 : found->second;
+  }
+  double points(const std::string& name) const { return rate("points/s", name); }
+  double points(const std::string& route, int depth, const Shape& shape = kBumpy, int threads = 1) const {
+    return points(steady(route, depth, shape, threads));
+  }
+  double scratch(int depth, const Shape& shape) const {
+    return points(full_name(best_, "scratch", shape, depth, 1));
+  }
+  double fastest_peer(const std::string& use, const Shape& shape, int depth) const {
+    double best = 0;
+    for (const char* peer : {"bfr/streaming", "bfr/cached-stencils", "far/uniform", "far/limit-stencils",
+                             "cgal/refinement", "openmesh/refinement"})
+      best = std::max(best, points(full_name(peer, use, shape, depth, 1)));
+    return best;
+  }
+
+  static void print(const std::string& what, double a, double b, double least = 0) {
+    if (a == 0 || b == 0) return;
+    std::printf("  %-58s %8.2f", what.c_str(), a / b);
+    if (least > 0) std::printf("   (%g)", least);
+    std::printf("\n");
+  }
+
+  void print_quads() const {
+    struct Wanted {
+      Shape shape;
+      double depth_3, depth_5;
+    };
+    const Wanted all[] = {{kQuads, 24, 50}, {kHalfRegularQuads, 0, 55}, {kRegularQuads, 0, 0}};
+    for (const Wanted& wanted : all) {
+      const Shape& shape = wanted.shape;
+      for (const int depth : {3, 5}) {
+        const std::string at = shape.name + ", depth " + std::to_string(depth) + ", ";
+        const double rows = points(best_, depth, shape),
+                     stencils = points("bfr/cached-stencils", depth, shape);
+        print(at + "rows / Bfr cached stencils", rows, stencils,
+              depth == 3 ? wanted.depth_3 : wanted.depth_5);
+        print(at + "streamed / Bfr cached stencils", points("row-stream/streamed", depth, shape), stencils);
+        print(at + "rows / Bfr streaming", rows, points("bfr/streaming", depth, shape));
+        print(at + "rows / fastest peer", rows, fastest_peer("steady", shape, depth));
+        print(at + "rows from scratch / fastest peer from scratch", scratch(depth, shape),
+              fastest_peer("scratch", shape, depth));
+      }
+    }
+    print("100 000 quads, depth 5, all threads / one", points(best_, 5, kManyQuads, all_threads_),
+          points(best_, 5, kManyQuads), 1.85);
+  }
+
+  void print_triangles() const {
+    const double rows = points(best_, 5), window = points("sliding-window", 5);
+    const auto written = [&](const std::string& route) { return rate("written/s", steady(route, 5)); };
+    const auto memory = [&](const char* part) {
+      return rate("written/s", std::string("write-only/") + part);
+    };
+    print("depth 5, rows / Bfr cached stencils", rows, points("bfr/cached-stencils", 5), 40);
+    print("depth 5, rows / Bfr streaming", rows, points("bfr/streaming", 5), 120);
+    print("depth 3, rows / Bfr cached stencils", points(best_, 3), points("bfr/cached-stencils", 3), 20);
+    print("depth 5, rows / scalar sliding window", rows, window, 20);
+    print("depth 5, rows / fastest peer", rows, fastest_peer("steady", kBumpy, 5));
+    print("depth 5, scalar sliding window / Bfr streaming", window, points("bfr/streaming", 5), 6);
+    print("depth 5, scalar sliding window / naive", window, points("naive", 5));
+    print("depth 5, rows / write-only in 1 MB, bytes", written(best_), memory("cached"), .45);
+    print("depth 5, rows / write-only in 16 KB, bytes", written(best_), memory("first-level"));
+    for (const auto& [form, least] : {std::pair{"row-stream/whole-pairs", 0.}, {"row-stream/streamed", .5}})
+      print(std::string("depth 5, ") + form + " / write-only to memory, bytes", written(form),
+            memory("memory"), least);
+    for (const auto& [depth, least] : {std::pair{3, 15.}, {5, 0.}})
+      print("depth " + std::to_string(depth) + ", rows from scratch / fastest peer from scratch",
+            scratch(depth, kBumpy), fastest_peer("scratch", kBumpy, depth), least);
+    print("100 000 faces, depth 5, all threads / one", points(best_, 5, kManyFaces, all_threads_),
+          points(best_, 5, kManyFaces), 1.85);
+  }
 
   data::Scheme scheme_;
   std::string best_;
   int all_threads_;
   std::map<std::string, double> rates_;  // by counter and name
 };
-
-void RatioTable::ReportRuns(const std::vector<Run>& runs) {
-  ConsoleReporter::ReportRuns(runs);
-  for (const Run& run : runs) {
-    if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
-    for (const auto& [counter, value] : run.counters) {
-      double& best = rates_[counter + " " + run.run_name.function_name];
-      best = std::max(best, static_cast<double>(value));
-    }
-    if (const auto peak = run.counters.find("peak"); peak != run.counters.end())
-      rates_["time " + run.run_name.function_name] = run.GetAdjustedRealTime();
-  }
-}
-
-double RatioTable::rate(const std::string& counter, const std::string& name) const {
-  const auto found = rates_.find(counter + " " + name);
-  return found == rates_.end() ? 0 : found->second;
-}
-
-double RatioTable::fastest_peer(const std::string& use, const Shape& shape, int depth) const {
-  double best = 0;
-  for (const char* peer : {"bfr/streaming", "bfr/cached-stencils", "far/uniform", "far/limit-stencils",
-                           "cgal/refinement", "openmesh/refinement"})
-    best = std::max(best, rate("points/s", full_name(peer, use, shape, depth, 1)));
-  return best;
-}
-
-void RatioTable::print(const char* what, double a, double b, double least) const {
-  if (a == 0 || b == 0) return;
-  std::printf("  %-58s %8.2f", what, a / b);
-  if (least > 0) std::printf("   (%g)", least);
-  std::printf("\n");
-}
-
-void RatioTable::Finalize() {
-  ConsoleReporter::Finalize();
-  std::printf("\nratios of rates, best of all repetitions (and the least wanted); one thread unless said\n");
-  if (scheme_ == data::Scheme::kLoop) {
-    print_triangles();
-  } else {
-    print_quads();
-  }
-  std::printf("\n");
-}
-
-void RatioTable::print_quads() const {
-  struct Wanted {
-    Shape shape;
-    double depth_3, depth_5;
-  };
-  const Wanted all[] = {{kQuads, 24, 50}, {kHalfRegularQuads, 0, 55}, {kRegularQuads, 0, 0}};
-  const std::string p = "points/s";
-  for (const auto& [shape, depth_3, depth_5] : all) {
-    for (const int depth : {3, 5}) {
-      const auto say = [&, &named = shape.name](const std::string& what) {
-        return named + ", depth " + std::to_string(depth) + ", " + what;
-      };
-      const double rows = rate(p, steady(best_, depth, shape));
-      const double streamed = rate(p, steady("row-stream/streamed", depth, shape));
-      const double stencils = rate(p, steady("bfr/cached-stencils", depth, shape));
-      const double least = depth == 3 ? depth_3 : depth_5;
-      print(say("rows / Bfr cached stencils").c_str(), rows, stencils, least);
-      print(say("streamed / Bfr cached stencils").c_str(), streamed, stencils, 0);
-      print(say("rows / Bfr streaming").c_str(), rows, rate(p, steady("bfr/streaming", depth, shape)), 0);
-      print(say("rows / fastest peer").c_str(), rows, fastest_peer("steady", shape, depth), 0);
-      print(say("rows from scratch / fastest peer from scratch").c_str(),
-            rate(p, full_name(best_, "scratch", shape, depth, 1)), fastest_peer("scratch", shape, depth), 0);
-    }
-  }
-  print("100 000 quads, depth 5, all threads / one", rate(p, steady(best_, 5, kManyQuads, all_threads_)),
-        rate(p, steady(best_, 5, kManyQuads)), 1.85);
-}
-
-void RatioTable::print_triangles() const {
-  const std::string rows = best_, p = "points/s", w = "written/s";
-  print("depth 5, rows / Bfr cached stencils", rate(p, steady(rows, 5)),
-        rate(p, steady("bfr/cached-stencils", 5)), 40);
-  print("depth 5, rows / Bfr streaming", rate(p, steady(rows, 5)), rate(p, steady("bfr/streaming", 5)), 120);
-  print("depth 3, rows / Bfr cached stencils", rate(p, steady(rows, 3)),
-        rate(p, steady("bfr/cached-stencils", 3)), 20);
-  print("depth 5, rows / scalar sliding window", rate(p, steady(rows, 5)),
-        rate(p, steady("sliding-window", 5)), 20);
-  print("depth 5, rows / fastest peer", rate(p, steady(rows, 5)), fastest_peer("steady", kBumpy, 5), 0);
-  print("depth 5, scalar sliding window / Bfr streaming", rate(p, steady("sliding-window", 5)),
-        rate(p, steady("bfr/streaming", 5)), 6);
-  print("depth 5, scalar sliding window / naive", rate(p, steady("sliding-window", 5)),
-        rate(p, steady("naive", 5)), 0);
-  print("depth 5, rows / write-only in 1 MB, bytes", rate(w, steady(rows, 5)), rate(w, "write-only/cached"),
-        .45);
-  print("depth 5, rows / write-only in 16 KB, bytes", rate(w, steady(rows, 5)),
-        rate(w, "write-only/first-level"), 0);
-  for (const char* form : {"row-stream/whole-pairs", "row-stream/streamed"}) {
-    print(("depth 5, " + std::string(form) + " / write-only to memory, bytes").c_str(),
-          rate(w, steady(form, 5)), rate(w, "write-only/memory"),
-          std::string(form) == "row-stream/streamed" ? .5 : 0);
-  }
-  print("depth 3, rows from scratch / fastest peer from scratch",
-        rate(p, full_name(rows, "scratch", kBumpy, 3, 1)), fastest_peer("scratch", kBumpy, 3), 15);
-  print("depth 5, rows from scratch / fastest peer from scratch",
-        rate(p, full_name(rows, "scratch", kBumpy, 5, 1)), fastest_peer("scratch", kBumpy, 5), 0);
-  print("100 000 faces, depth 5, all threads / one", rate(p, steady(rows, 5, kManyFaces, all_threads_)),
-        rate(p, steady(rows, 5, kManyFaces)), 1.85);
-}
 
 }  // namespace
 }  // namespace limitcheck::bench
@@ -206,9 +195,11 @@ void set_up(benchmark::State& state, const Route& route, const Shape& shape) {
 }
 
 void write_only(benchmark::State& state, std::size_t bytes, bool streaming) {
-  bench::WriteOnly memory(bytes);
+  const std::size_t count = bytes / sizeof(float);
+  const auto memory = hwy::AllocateAligned<float>(count);
+  std::fill_n(memory.get(), count, 0.F);
   for (auto _ : state) {
-    memory.run(streaming);
+    bench::write_all({memory.get(), count}, streaming);
     benchmark::ClobberMemory();
   }
   state.counters["written/s"] =

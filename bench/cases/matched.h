@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Speed at equal error: who computes less exactly pays for it here.
+// Frames against the limit surface, and speed at equal error: who computes less exactly pays for it here.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "data/control_mesh.h"
 #include "data/scheme.h"
 #include "fast/frame/sink.h"
+#include "fast/mesh/vec3.h"
 #include "fast/plan/depth.h"
+#include "reference/point/surface_point.h"
 
 namespace limitcheck::bench {
+
+/// The middle of a drawn triangle, and the limit surface's point at the same parameter.
+struct TriangleMiddle {
+  const fast::Draw* draw = nullptr;
+  std::int32_t triangle = 0;      // of the draw
+  fast::Point3 position, normal;  // as drawn: the mean position, and the sum of the normals
+  reference::SurfacePoint<double> exact;
+};
+
+/// Calls `with` for every triangle of a frame with provenance, of depths up to 5. The faces are triangles of Loop's
+/// scheme or quads.
+void each_triangle_middle(const data::ControlMesh& mesh, data::Scheme scheme,
+                          const fast::DrawList<float>& frame, reference::Derivatives order,
+                          const std::function<void(const TriangleMiddle&)>& with);
 
 /// The bounds that points have to keep: of positions in diagonals of the bounding box, and of unit normals in rad.
 struct PointBound {

@@ -26,10 +26,7 @@ struct Shot {
 
 Shot frame_of(data::Scheme scheme, int depth) {
   Shot shot{scheme == data::Scheme::kLoop ? data::bumpy_sphere(200, 1) : data::pawn(8), scheme, {}};
-  fast::TessellatorOptions options;
-  options.scheme = scheme;
-  options.provenance = true;
-  fast::row_stream::StreamTessellator(shot.mesh, options)
+  fast::row_stream::StreamTessellator(shot.mesh, {.provenance = true, .scheme = scheme})
       .frame(std::vector<std::int32_t>(shot.mesh.faces.size(), depth), shot.frame);
   return shot;
 }

@@ -53,41 +53,31 @@ Work run_again_and_again(const Route& route, const data::ControlMesh& mesh, int 
 }
 
 /// The kernels and the other engines, all of a mesh at one depth.
-class Kernels {
- public:
-  explicit Kernels(std::vector<Tracked>& list) : list_(list) {}
-
-  void add(const std::vector<Route>& routes, const std::string& prefix, const char* shape,
-           const Mesh& counted, int timed_faces, bool set_up) {
-    for (const Route& route : routes) {
-      const bool quick = route.nanoseconds_per_point < 10;
-      const Shape timed{shape, quick ? timed_faces : timed_faces / 5};
-      const auto mesh = [=](Way way) { return way == Way::kCounted ? counted(way) : mesh_of(timed); };
-      for (const int depth : {3, 5}) {
-        const bool too_slow = route.nanoseconds_per_point > 50 && depth > 3;
-        list_.push_back(
-            {too_slow || !can_be_counted(route.name) ? "" : prefix + route.name + depth_name(depth),
-             full_name(route.name, "steady", timed, depth, 1),
-             [=](Way way) { return run_again_and_again(route, mesh(way), depth, 1); }});
-      }
-      if (!set_up) continue;
-      if (can_be_counted(route.name))
-        list_.push_back({"set-up/" + prefix + route.name, "",
-                         [=](Way way) { return Work{[route, of = mesh(way)] { route.make(of, 3, 1); }}; }});
-      list_.push_back({"", full_name(route.name, "scratch", timed, 3, 1), [=](Way way) {
-                         return Work{[route, of = mesh(way)] { route.make(of, 3, 1)->run(); }};
-                       }});
+void add_kernels(std::vector<Tracked>& list, const std::vector<Route>& routes, const std::string& prefix,
+                 const char* shape, const Mesh& counted, int timed_faces, bool set_up) {
+  for (const Route& route : routes) {
+    const bool quick = route.nanoseconds_per_point < 10;
+    const Shape timed{shape, quick ? timed_faces : timed_faces / 5};
+    const auto mesh = [=](Way way) { return way == Way::kCounted ? counted(way) : mesh_of(timed); };
+    for (const int depth : {3, 5}) {
+      const bool too_slow = route.nanoseconds_per_point > 50 && depth > 3;
+      list.push_back({too_slow || !can_be_counted(route.name) ? "" : prefix + route.name + depth_name(depth),
+                      full_name(route.name, "steady", timed, depth, 1),
+                      [=](Way way) { return run_again_and_again(route, mesh(way), depth, 1); }});
     }
-    // Both threads on the tracker's one core: what they do beside the work, and not how well they overlap.
-    const Route& first = routes.front();
-    list_.push_back({"", full_name(first.name, "steady", {shape, timed_faces}, 5, 2), [=](Way) {
-                       return run_again_and_again(first, mesh_of({shape, timed_faces}), 5, 2);
-                     }});
+    if (!set_up) continue;
+    if (can_be_counted(route.name))
+      list.push_back({"set-up/" + prefix + route.name, "",
+                      [=](Way way) { return Work{[route, of = mesh(way)] { route.make(of, 3, 1); }}; }});
+    list.push_back({"", full_name(route.name, "scratch", timed, 3, 1),
+                    [=](Way way) { return Work{[route, of = mesh(way)] { route.make(of, 3, 1)->run(); }}; }});
   }
-
- private:
-  std::vector<Tracked>& list_;
-};
+  // Both threads on the tracker's one core: what they do beside the work, and not how well they overlap.
+  const Route& first = routes.front();
+  list.push_back({"", full_name(first.name, "steady", {shape, timed_faces}, 5, 2), [=](Way) {
+                    return run_again_and_again(first, mesh_of({shape, timed_faces}), 5, 2);
+                  }});
+}
 
 struct Subject {
   std::string name;  // in front of the case's
@@ -95,85 +85,75 @@ struct Subject {
   Mesh mesh;
 };
 
-/// Frames by the engine of that kernel, or of the best one.
-class Frames {
- public:
-  explicit Frames(std::vector<Tracked>& list) : list_(list) {}
+std::shared_ptr<rs::StreamTessellator> engine(const data::ControlMesh& mesh, data::Scheme scheme,
+                                              const rs::Kernel& kernel, int threads) {
+  const fast::TessellatorOptions options{.threads = threads, .scheme = scheme};
+  return std::make_shared<rs::StreamTessellator>(mesh, options, kernel);
+}
 
-  /// Two frames by turns, of depths 0 to 4; in one of them every fortieth face is deeper by one.
-  template <class Output>
-  void add(const Subject& subject, const std::string& form,
-           const std::function<std::shared_ptr<Output>()>& output, const rs::Kernel* kernel = nullptr,
-           int threads = 1) {
-    const bool counted = threads == 1 && (kernel == nullptr || can_be_counted(kernel->name));
-    const std::string name = subject.name + "frame/row-stream/" + form;
-    list_.push_back({counted ? name : "", name, [=](Way way) {
-                       const auto mesh = subject.mesh(way);
-                       const auto by = engine(mesh, subject.scheme, kernel ? *kernel : best(way), threads);
-                       const auto out = output();
-                       const auto both = [=, one = depths(mesh, true), other = depths(mesh, false)] {
-                         by->frame(one, *out);
-                         by->frame(other, *out);
-                       };
-                       both();
-                       return Work{both};
-                     }});
-  }
+std::vector<std::int32_t> depths(const data::ControlMesh& mesh, bool deeper) {
+  std::vector<std::int32_t> depth;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    depth.push_back(static_cast<std::int32_t>(f * 7 % 5) + (deeper && f % 40 == 0 ? 1 : 0));
+  return depth;
+}
 
-  /// Points that move before each frame, whose depths need cones, or do not.
-  void add_deforming(const Subject& subject, fast::Strategy strategy) {
-    const std::string name = subject.name + "frame/row-stream/deforming-" + std::string(fast::name(strategy));
-    list_.push_back({name, name, [=](Way way) {
-                       const auto mesh = subject.mesh(way);
-                       const auto by = engine(mesh, subject.scheme, best(way), 1);
-                       const auto out = std::make_shared<fast::PatchMesh<float>>();
-                       fast::DepthOptions depth;
-                       depth.strategy = strategy;
-                       auto moved = mesh.positions;
-                       for (auto& p : moved) p[0] *= 1.01;
-                       const auto both = [=, still = mesh.positions] {
-                         by->move_points(moved), by->frame(depth, fast::Camera{}, *out);
-                         by->move_points(still), by->frame(depth, fast::Camera{}, *out);
-                       };
-                       both();
-                       return Work{both};
-                     }});
-  }
+/// Two frames by turns, of depths 0 to 4, by the engine of that kernel or of the best one; in one of them every fortieth
+/// face is deeper by one.
+template <class Output>
+void add_frames(std::vector<Tracked>& list, const Subject& subject, const std::string& form,
+                const std::function<std::shared_ptr<Output>()>& output, const rs::Kernel* kernel = nullptr,
+                int threads = 1) {
+  const bool counted = threads == 1 && (kernel == nullptr || can_be_counted(kernel->name));
+  const std::string name = subject.name + "frame/row-stream/" + form;
+  list.push_back({counted ? name : "", name, [=](Way way) {
+                    const auto mesh = subject.mesh(way);
+                    const auto by = engine(mesh, subject.scheme, kernel ? *kernel : best(way), threads);
+                    const auto out = output();
+                    const auto both = [=, one = depths(mesh, true), other = depths(mesh, false)] {
+                      by->frame(one, *out);
+                      by->frame(other, *out);
+                    };
+                    both();
+                    return Work{both};
+                  }});
+}
 
-  /// Every form of output, deforming points, two threads.
-  void add_all(const Subject& subject) {
-    add<fast::DrawList<float>>(subject, "random-depths", std::make_shared<fast::DrawList<float>>);
-    add<fast::IndexedMesh<float>>(subject, "indexed", std::make_shared<fast::IndexedMesh<float>>);
-    for (const auto& [form, options] :
-         {std::pair{"patches", fast::PatchOptions{}},
-          std::pair{"patches-kept", fast::PatchOptions{.incremental = true}},
-          std::pair{"patches-compact", fast::PatchOptions{.compact = true}},
-          std::pair{"patches-sticky", fast::PatchOptions{.incremental = true, .sticky = true}}})
-      add<fast::PatchMesh<float>>(
-          subject, form, [with = options] { return std::make_shared<fast::PatchMesh<float>>(with); });
-    for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined})
-      add_deforming(subject, strategy);
-    add<fast::DrawList<float>>(subject, "two-threads", std::make_shared<fast::DrawList<float>>, nullptr, 2);
-  }
+/// Points that move before each frame, whose depths need cones, or do not.
+void add_deforming(std::vector<Tracked>& list, const Subject& subject, fast::Strategy strategy) {
+  const std::string name = subject.name + "frame/row-stream/deforming-" + std::string(fast::name(strategy));
+  list.push_back({name, name, [=](Way way) {
+                    const auto mesh = subject.mesh(way);
+                    const auto by = engine(mesh, subject.scheme, best(way), 1);
+                    const auto out = std::make_shared<fast::PatchMesh<float>>();
+                    const fast::DepthOptions depth{.strategy = strategy};
+                    auto moved = mesh.positions;
+                    for (auto& p : moved) p[0] *= 1.01;
+                    const auto both = [=, still = mesh.positions] {
+                      by->move_points(moved), by->frame(depth, fast::Camera{}, *out);
+                      by->move_points(still), by->frame(depth, fast::Camera{}, *out);
+                    };
+                    both();
+                    return Work{both};
+                  }});
+}
 
-  static std::shared_ptr<rs::StreamTessellator> engine(const data::ControlMesh& mesh, data::Scheme scheme,
-                                                       const rs::Kernel& kernel, int threads) {
-    fast::TessellatorOptions options;
-    options.threads = threads;
-    options.scheme = scheme;
-    return std::make_shared<rs::StreamTessellator>(mesh, options, kernel);
-  }
-
- private:
-  static std::vector<std::int32_t> depths(const data::ControlMesh& mesh, bool deeper) {
-    std::vector<std::int32_t> depth;
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-      depth.push_back(static_cast<std::int32_t>(f * 7 % 5) + (deeper && f % 40 == 0 ? 1 : 0));
-    return depth;
-  }
-
-  std::vector<Tracked>& list_;
-};
+/// Every form of output, deforming points, two threads.
+void add_all_frames(std::vector<Tracked>& list, const Subject& subject) {
+  add_frames<fast::DrawList<float>>(list, subject, "random-depths", std::make_shared<fast::DrawList<float>>);
+  add_frames<fast::IndexedMesh<float>>(list, subject, "indexed", std::make_shared<fast::IndexedMesh<float>>);
+  for (const auto& [form, options] :
+       {std::pair{"patches", fast::PatchOptions{}},
+        std::pair{"patches-kept", fast::PatchOptions{.incremental = true}},
+        std::pair{"patches-compact", fast::PatchOptions{.compact = true}},
+        std::pair{"patches-sticky", fast::PatchOptions{.incremental = true, .sticky = true}}})
+    add_frames<fast::PatchMesh<float>>(
+        list, subject, form, [with = options] { return std::make_shared<fast::PatchMesh<float>>(with); });
+  for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined})
+    add_deforming(list, subject, strategy);
+  add_frames<fast::DrawList<float>>(list, subject, "two-threads", std::make_shared<fast::DrawList<float>>,
+                                    nullptr, 2);
+}
 
 /// Frames at given depths, again and again.
 template <class Real, class Engine>
@@ -189,15 +169,12 @@ Tracked points_at_equal_error(const Subject& subject) {
   return {name, name, [=](Way way) {
             const auto mesh = subject.mesh(way);
             const std::vector<std::int32_t> depth(mesh.faces.size(), 4);
-            fast::TessellatorOptions options;
-            options.threads = 1;
-            options.scheme = subject.scheme;
-            options.provenance = true;
+            fast::TessellatorOptions options{.threads = 1, .provenance = true, .scheme = subject.scheme};
             fast::DrawList<float> frame;
             rs::StreamTessellator(mesh, options, best(way)).frame(depth, frame);
             const PointBound worst = worst_errors(mesh, subject.scheme, frame), bound;
             if (worst.position <= bound.position && worst.normal <= bound.normal)
-              return frames_of<float>(Frames::engine(mesh, subject.scheme, best(way), 1), depth);
+              return frames_of<float>(engine(mesh, subject.scheme, best(way), 1), depth);
             options.provenance = false;
             return frames_of<double>(std::make_shared<fast::Tessellator<double>>(mesh, options), depth);
           }};
@@ -208,14 +185,10 @@ Tracked frames_at_equal_error(const Subject& subject) {
   const std::string name = "equal-error/frames/" + subject.name + "pixels:0.5";
   return {name, name, [=](Way way) {
             const auto mesh = subject.mesh(way);
-            const auto by = Frames::engine(mesh, subject.scheme, best(way), 1);
-            fast::TessellatorOptions options;
-            options.scheme = subject.scheme;
-            options.provenance = true;
-            rs::StreamTessellator judged(mesh, options, best(way));
+            const auto by = engine(mesh, subject.scheme, best(way), 1);
+            rs::StreamTessellator judged(mesh, {.provenance = true, .scheme = subject.scheme}, best(way));
             const fast::Camera camera;
-            fast::DepthOptions depth;
-            depth.strategy = fast::Strategy::kProjectSphere;
+            fast::DepthOptions depth{.strategy = fast::Strategy::kProjectSphere};
             const double target = matching_target(.5, [&](double pixels) {
               fast::DrawList<float> frame;
               depth.target_pixels = pixels;
@@ -244,10 +217,9 @@ std::vector<Tracked> tracked_cases() {
       polygons{"n-gons/", kQuads, [](Way way) { return data::mixed_pawn(way == Way::kCounted ? 8 : 24); }},
       semi_sharp{"semi-sharp/", kQuads, [](Way) { return data::crease_ring(2, 5); }};
 
-  Kernels kernels(list);
-  kernels.add(our_routes(), "", "bumpy", triangles.mesh, 1000, true);
-  kernels.add(our_quad_routes(), "quads/", "quads", pawn, 1002, true);
-  kernels.add(our_quad_routes(), "regular/", "regular", regular.mesh, 1000, false);
+  add_kernels(list, our_routes(), "", "bumpy", triangles.mesh, 1000, true);
+  add_kernels(list, our_quad_routes(), "quads/", "quads", pawn, 1002, true);
+  add_kernels(list, our_quad_routes(), "regular/", "regular", regular.mesh, 1000, false);
   for (const Route& route : our_quad_routes()) {
     if (!route.name.starts_with("row-stream/")) continue;
     for (const int depth : {1, 3}) {  // at depth 1 sides are half of the work
@@ -257,14 +229,13 @@ std::vector<Tracked> tracked_cases() {
     }
   }
 
-  Frames frames(list);
-  for (const Subject* subject : {&triangles, &quads}) frames.add_all(*subject);
+  for (const Subject* subject : {&triangles, &quads}) add_all_frames(list, *subject);
   for (const Subject* subject : {&polygons, &semi_sharp})
-    frames.add<fast::PatchMesh<float>>(*subject, "patches",
+    add_frames<fast::PatchMesh<float>>(list, *subject, "patches",
                                        [] { return std::make_shared<fast::PatchMesh<float>>(); });
   for (const rs::Kernel& kernel : rs::kernels())
     for (const Subject* subject : {&triangles, &quads, &regular})
-      frames.add<fast::DrawList<float>>(*subject, std::string(kernel.name) + "/random-depths",
+      add_frames<fast::DrawList<float>>(list, *subject, std::string(kernel.name) + "/random-depths",
                                         std::make_shared<fast::DrawList<float>>, &kernel);
 
   const Subject small{"", kLoop, by_faces("bumpy", 200, 200)},

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -80,7 +81,7 @@ class Streaming : public BfrContender {
 };
 
 /// The same with a depth for each face, -1: not at all.
-class Frame final : public Contender {
+class Frame {
  public:
   Frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth)
       : mesh_(mesh), factory_(mesh_.refiner()), depth_(depth.begin(), depth.end()) {
@@ -88,15 +89,9 @@ class Frame final : public Contender {
       while (static_cast<std::int32_t>(coords_.size()) <= d)
         coords_.push_back(lattice_coordinates(mesh_, static_cast<int>(coords_.size())));
   }
-  void run() override {
+  void run() {
     for (std::size_t f = 0; f < depth_.size(); ++f)
       if (depth_[f] >= 0) stream_.run(mesh_, factory_, f, coords_[static_cast<std::size_t>(depth_[f])]);
-  }
-  double evaluated() const override {
-    double points = 0;
-    for (const std::int32_t d : depth_)
-      if (d >= 0) points += static_cast<double>(coords_[static_cast<std::size_t>(d)].size() / 2);
-    return points;
   }
 
  private:
@@ -162,8 +157,8 @@ Route bfr_cached_stencils() {
           maker<CachedStencils>()};
 }
 
-std::unique_ptr<Contender> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth) {
-  return std::make_unique<Frame>(mesh, depth);
+std::function<void()> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth) {
+  return [frame = std::make_shared<Frame>(mesh, depth)] { frame->run(); };
 }
 
 }  // namespace limitcheck::bench

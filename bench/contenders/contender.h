@@ -59,7 +59,7 @@ std::vector<Route> our_quad_routes();
 Route bfr_streaming();
 Route bfr_cached_stencils();
 /// Bfr streaming of a mesh whose faces have depths of their own, -1: not at all; on one thread.
-std::unique_ptr<Contender> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth);
+std::function<void()> bfr_frame(const data::ControlMesh& mesh, std::span<const std::int32_t> depth);
 Route far_uniform();
 Route far_limit_stencils();
 Route cgal_refinement();

@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/contenders/contender.h"
+#include "fast/stream/quad_row_stream.h"
 #include "fast/stream/row_stream.h"
 #include "fast/window/sliding_window.h"
 #include "reference/loop/naive.h"
@@ -16,56 +21,81 @@ namespace {
 
 namespace rs = fast::row_stream;
 
-double per_pair(std::size_t pairs, int depth) {
-  return static_cast<double>(pairs) * rs::side(depth) * rs::side(depth);
+std::size_t points_of(int depth) {
+  return static_cast<std::size_t>(rs::side(depth) * rs::side(depth));
 }
 
-/// Adjacency, uniform pairing, rings and vertex limits; then rows or whole pairs.
+std::vector<fast::Grid> uniform_pairs(const data::ControlMesh& mesh, const fast::Adjacency& adjacency,
+                                      int depth) {
+  return fast::pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
+}
+
+/// Adjacency, uniform pairing, rings and vertex limits.
+struct Pairs {
+  using Kernel = rs::Kernel;
+  Pairs(const data::ControlMesh& control, int depth, const Kernel& kernel)
+      : adjacency(control),
+        items(uniform_pairs(control, adjacency, depth)),
+        stream(control, adjacency, kernel) {}
+  /// A batch is as many pairs as the kernel has lanes: pieces are whole batches.
+  std::size_t piece() const { return static_cast<std::size_t>(stream.kernel().lanes); }
+
+  fast::Adjacency adjacency;
+  std::vector<fast::Grid> items;
+  rs::RowStream stream;
+};
+
+/// Adjacency, rings and vertex limits, the faces sorted for the lanes.
+struct Quads {
+  using Kernel = rs::QuadKernel;
+  Quads(const data::ControlMesh& control, int, const Kernel& kernel) : mesh(control), stream(mesh, kernel) {
+    items.resize(control.faces.size());
+    std::iota(items.begin(), items.end(), 0);
+    items = stream.sorted(items);
+  }
+  /// Some batches, for the quads of a piece that do not fill a batch run in one that is not full.
+  static std::size_t piece() { return 256; }
+
+  fast::QuadMesh mesh;
+  rs::QuadRowStream stream;
+  std::vector<std::int32_t> items;
+};
+
+enum class Form { kRows, kWhole, kStreamed };
+
+/// Rows, or whole pairs or quads.
+template <class Prepared>
 class RowStreaming final : public Contender {
  public:
-  enum class Form { kRows, kWhole, kStreamed };
-
-  RowStreaming(const data::ControlMesh& mesh, int depth, int threads, const rs::Kernel& kernel, Form form)
-      : depth_(depth),
-        threads_(threads),
-        form_(form),
-        adjacency_(mesh),
-        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids),
-        stream_(mesh, adjacency_, kernel) {
-    if (form == Form::kWhole || form == Form::kStreamed) out_.resize(evaluated());
+  RowStreaming(const data::ControlMesh& mesh, int depth, int threads, const typename Prepared::Kernel& kernel,
+               Form form)
+      : depth_(depth), threads_(threads), form_(form), prepared_(mesh, depth, kernel) {
+    if (form != Form::kRows) out_.resize(prepared_.items.size() * points_of(depth));
   }
 
   void run() override {
-    // A batch is as many pairs as the kernel has lanes: pieces are whole batches.
-    const auto lanes = static_cast<std::size_t>(stream_.kernel().lanes);
-    in_parallel((pairs_.size() + lanes - 1) / lanes, threads_, [&](std::size_t first, std::size_t last) {
-      first *= lanes, last = std::min(last * lanes, pairs_.size());
-      const auto some = std::span(pairs_).subspan(first, last - first);
-      auto workspace = pool_.take([] { return std::make_unique<rs::Workspace>(); });
-      const std::size_t start = first * static_cast<std::size_t>(per_pair(1, depth_));
-      switch (form_) {
-        case Form::kRows:
-          stream_.rows(some, depth_, *workspace, nullptr, nullptr);
-          break;
-        case Form::kWhole:
-          stream_.whole(some, depth_, *workspace, out_.data() + start);
-          break;
-        case Form::kStreamed:
-          stream_.streamed(some, depth_, *workspace, out_.data() + start);
-          break;
-      }
-      pool_.give(std::move(workspace));
-    });
+    const std::size_t piece = prepared_.piece();
+    in_parallel((prepared_.items.size() + piece - 1) / piece, threads_,
+                [&](std::size_t first, std::size_t last) {
+                  first *= piece, last = std::min(last * piece, prepared_.items.size());
+                  const auto some = std::span(std::as_const(prepared_.items)).subspan(first, last - first);
+                  auto workspace = pool_.take([] { return std::make_unique<rs::Workspace>(); });
+                  rs::Vertex* out = out_.data() + first * (out_.empty() ? 0 : points_of(depth_));
+                  if (form_ == Form::kRows) prepared_.stream.rows(some, depth_, *workspace, nullptr, nullptr);
+                  if (form_ == Form::kWhole) prepared_.stream.whole(some, depth_, *workspace, out);
+                  if (form_ == Form::kStreamed) prepared_.stream.streamed(some, depth_, *workspace, out);
+                  pool_.give(std::move(workspace));
+                });
     benchmark::ClobberMemory();
   }
-  double evaluated() const override { return per_pair(pairs_.size(), depth_); }
+  double evaluated() const override {
+    return static_cast<double>(prepared_.items.size() * points_of(depth_));
+  }
 
  private:
   int depth_, threads_;
   Form form_;
-  fast::Adjacency adjacency_;
-  std::vector<fast::Grid> pairs_;
-  rs::RowStream stream_;
+  Prepared prepared_;
   Pool<rs::Workspace> pool_;
   std::vector<rs::Vertex> out_;
 };
@@ -77,7 +107,7 @@ class Window : public Contender {
       : depth_(depth),
         threads_(threads),
         adjacency_(mesh),
-        pairs_(fast::pair_faces(adjacency_, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids),
+        pairs_(uniform_pairs(mesh, adjacency_, depth)),
         prepared_(adjacency_, fast::positions_of<float>(mesh)) {}
 
   void run() override {
@@ -90,7 +120,7 @@ class Window : public Contender {
       pool_.give(std::move(window));
     });
   }
-  double evaluated() const override { return per_pair(pairs_.size(), depth_); }
+  double evaluated() const override { return static_cast<double>(pairs_.size() * points_of(depth_)); }
 
  private:
   using Sliding = fast::SlidingWindow<float, fast::LimitSurface<float>, fast::NoProbe, true>;
@@ -123,31 +153,41 @@ class Naive : public Contender {
   reference::NaiveSubdivider<double> subdivider_;
 };
 
+/// Row streaming on every target of this machine and in every output form.
+///   items   "pairs" or "quads"
+template <class Prepared>
+std::vector<Route> row_stream_routes(std::span<const typename Prepared::Kernel> kernels,
+                                     const std::string& items) {
+  std::vector<Route> routes;
+  const auto add = [&](const std::string& name, std::string what, const typename Prepared::Kernel& kernel,
+                       Form form) {
+    routes.push_back({"row-stream/" + name, std::move(what), kernel.fused ? 5. : 100.,
+                      form == Form::kRows ? 0. : 24., true,
+                      [&kernel, form](const auto& mesh, int depth, int threads) {
+                        return std::make_unique<RowStreaming<Prepared>>(mesh, depth, threads, kernel, form);
+                      }});
+  };
+  for (const auto& kernel : kernels)
+    add(kernel.name, "row streaming, rows of a batch overwritten", kernel, Form::kRows);
+  add("whole-" + items, "row streaming, all vertices kept", kernels.front(), Form::kWhole);
+  add("streamed", "row streaming, all vertices kept, written past the caches", kernels.front(),
+      Form::kStreamed);
+  return routes;
+}
+
 }  // namespace
 
 std::vector<Route> our_routes() {
-  std::vector<Route> routes;
-  const auto add = [&](std::string name, std::string what, const rs::Kernel& kernel,
-                       RowStreaming::Form form) {
-    using Form = RowStreaming::Form;
-    const double bytes = form == Form::kRows ? 0 : 24;
-    routes.push_back({std::move(name), std::move(what), kernel.fused ? 5. : 100., bytes, true,
-                      [&kernel, form](const auto& mesh, int depth, int threads) {
-                        return std::make_unique<RowStreaming>(mesh, depth, threads, kernel, form);
-                      }});
-  };
-  for (const rs::Kernel& kernel : rs::kernels())
-    add(std::string("row-stream/") + kernel.name, "row streaming, rows of a batch overwritten", kernel,
-        RowStreaming::Form::kRows);
-  add("row-stream/whole-pairs", "row streaming, all vertices kept", rs::kernels().front(),
-      RowStreaming::Form::kWhole);
-  add("row-stream/streamed", "row streaming, all vertices kept, written past the caches",
-      rs::kernels().front(), RowStreaming::Form::kStreamed);
+  std::vector<Route> routes = row_stream_routes<Pairs>(rs::kernels(), "pairs");
   routes.push_back({"sliding-window", "the paper's scheme, scalar float, strips overwritten", 35, 0, true,
                     maker<Window>()});
   routes.push_back({"naive", "the paper's recursive subdivider, double, triangles forgotten", 1200, 0, true,
                     maker<Naive>()});
   return routes;
+}
+
+std::vector<Route> our_quad_routes() {
+  return row_stream_routes<Quads>(rs::quad_kernels(), "quads");
 }
 
 }  // namespace limitcheck::bench

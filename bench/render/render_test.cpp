@@ -22,12 +22,7 @@ fast::SurfaceVertex<float> vertex(float x, float y, float z = 0) {
 
 /// Looks down the z axis from 1 above the plane z = 0; 90 degrees: the picture shows -2 < x < 2, -1 < y < 1.
 fast::Camera above() {
-  fast::Camera camera;
-  camera.eye = {0, 0, 1};
-  camera.field_of_view = 90;
-  camera.width = kWidth;
-  camera.height = kHeight;
-  return camera;
+  return {.eye = {0, 0, 1}, .field_of_view = 90, .width = kWidth, .height = kHeight};
 }
 
 fast::DrawList<float> frame_of(std::vector<fast::SurfaceVertex<float>> vertices, fast::DrawMode mode) {
@@ -71,16 +66,13 @@ TEST(Rendering, LeavesOutWhatIsSeenFromBehindOrShowsItRed) {
   const auto frame =
       frame_of({vertex(-1, -1), vertex(0, 1), vertex(1, -1)}, fast::DrawMode::kTriangles);  // clockwise
   EXPECT_TRUE(white(picture(frame), 100, 60));
-  Appearance appearance;
-  appearance.backfaces = true;
-  const Image image = picture(frame, appearance);
+  const Image image = picture(frame, {.backfaces = true});
   const std::uint8_t* p = image.rgb.data() + 3 * (60 * kWidth + 100);
   EXPECT_GT(p[0], 2 * p[1]);
 }
 
 TEST(Rendering, NearerTrianglesHideThoseBehind) {
-  Appearance appearance;
-  appearance.colour = [](const fast::Draw& draw) {
+  const auto by_face = [](const fast::Draw& draw) {
     return draw.face == 1 ? Colour{1, 0, 0} : Colour{0, 0, 1};
   };
   auto frame = frame_of({vertex(-1, -1, .2f), vertex(1, -1, .2f), vertex(0, 1, .2f), vertex(-1, -1),
@@ -89,7 +81,7 @@ TEST(Rendering, NearerTrianglesHideThoseBehind) {
   frame.draws[0].count = 3;
   frame.draws[0].face = 1;
   frame.draws.push_back({3, 3, 0, 2, 2, fast::DrawMode::kTriangles});
-  const Image image = picture(frame, appearance);
+  const Image image = picture(frame, {.colour = by_face});
   const std::uint8_t* p = image.rgb.data() + 3 * (60 * kWidth + 100);
   EXPECT_GT(p[0], 0);
   EXPECT_EQ(p[2], 0);

@@ -13,13 +13,6 @@ namespace limitcheck::bench {
 
 namespace {
 
-fast::CrackOptions cracks(fast::Repair repair, fast::FanCentre centre = fast::FanCentre::kLimit) {
-  fast::CrackOptions options;
-  options.repair = repair;
-  options.centre = centre;
-  return options;
-}
-
 /// The control mesh itself as triangles with normals of their own.
 fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
   fast::DrawList<float> list;
@@ -28,28 +21,23 @@ fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
     fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);
     n = (1 / length(n)) * n;
-    for (const auto& q : p)
-      list.vertices.push_back({{static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
-                               {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}});
+    for (const auto& q : p) list.vertices.push_back(vertex(q, n));
   }
   list.draws.push_back(
       {0, static_cast<std::int32_t>(list.vertices.size()), 0, 0, 0, fast::DrawMode::kTriangles});
   return list;
 }
 
-}  // namespace
-
 Image cracks_close_up(fast::Repair repair) {
   Studio studio = bumpy(200);
   fast::Camera close = camera_at(58, 2.3);
   close.target = {.45, .2, .35};
-  fast::DepthOptions unequal;
-  unequal.strategy = fast::Strategy::kCustom;
-  unequal.custom = [](std::int32_t face) { return face % 3 == 0 ? 4 : 1; };
-  Appearance appearance = by_depth(true);
-  appearance.backfaces = true;  // what shows through a crack is the inside, in red
-  return studio.shot(studio.frame(unequal, close, cracks(repair)), close, appearance);
+  const fast::DepthOptions unequal{.strategy = fast::Strategy::kCustom,
+                                   .custom = [](std::int32_t face) { return face % 3 == 0 ? 4 : 1; }};
+  return studio.shot(studio.frame(unequal, close, {.repair = repair}), close, with_inside());
 }
+
+}  // namespace
 
 Image cracks_and_repair() {
   return beside({cracks_close_up(fast::Repair::kNone), cracks_close_up(fast::Repair::kFan)});
@@ -67,9 +55,8 @@ Image fan_centres() {
   };
   std::int32_t other = 1;
   while (common(other) != 2) ++other;
-  fast::DepthOptions one;
-  one.strategy = fast::Strategy::kCustom;
-  one.custom = [other](std::int32_t face) { return face == 0 || face == other ? 1 : 3; };
+  const auto depth = [other](std::int32_t face) { return face == 0 || face == other ? 1 : 3; };
+  const fast::DepthOptions one{.strategy = fast::Strategy::kCustom, .custom = depth};
   fast::Point3 middle{};
   for (const std::int32_t v : faces[0])
     middle = middle + (1. / 3) * fast::to_point(studio.mesh().positions[v]);
@@ -84,7 +71,7 @@ Image fan_centres() {
   const auto with = [&](fast::FanCentre centre) {
     Appearance appearance = by_depth(true);
     appearance.flat = true;
-    return studio.shot(studio.frame(one, near, cracks(fast::Repair::kFan, centre)), near, appearance);
+    return studio.shot(studio.frame(one, near, {.centre = centre}), near, appearance);
   };
   return beside({with(fast::FanCentre::kFlatLimit), with(fast::FanCentre::kLimit)});
 }
@@ -92,29 +79,21 @@ Image fan_centres() {
 Image error_beside_control_mesh() {
   Studio studio = bumpy(200);
   const fast::Camera front = camera_at(20, 4.3);
-  fast::TessellatorOptions options;
-  options.provenance = true;
-  fast::Tessellator<float> engine(studio.mesh(), options);
-  fast::DrawList<float> frame, painted;
-  engine.frame(verify::uniform(2), front, frame);
+  const fast::DrawList<float> frame = frame_seen(studio.mesh(), verify::uniform(2), front);
+  fast::DrawList<float> map;
   // A draw for each triangle, so that each has its colour; logarithmic, four decades down from 1 % of the
   // diagonal.
   std::map<std::int64_t, Colour> colour;
   const double most = .01 * data::box_diagonal(studio.mesh());
   each_triangle_error(studio.mesh(), frame, [&](const TriangleError& error) {
-    const auto first = static_cast<std::int64_t>(painted.vertices.size());
+    const auto first = static_cast<std::int64_t>(map.vertices.size());
     for (const std::int32_t v : error.draw->triangle(error.triangle))
-      painted.vertices.push_back(frame.vertices[error.draw->first + v]);
-    painted.draws.push_back(
-        {first, 3, 1, error.draw->face_of(error.triangle), -1, fast::DrawMode::kTriangles});
+      map.vertices.push_back(frame.vertices[error.draw->first + v]);
+    map.draws.push_back({first, 3, 1, error.draw->face_of(error.triangle), -1, fast::DrawMode::kTriangles});
     colour[first] = heat(1 + std::log10(std::max(error.position, 1e-12) / most) / 2);
   });
-  Appearance control, map;
-  control.wireframe = true;
-  map.wireframe = true;
-  map.colour = [&](const fast::Draw& draw) { return colour.at(draw.first); };
-  return beside(
-      {studio.shot(control_triangles(studio.mesh()), front, control), studio.shot(painted, front, map)});
+  return beside({studio.shot(control_triangles(studio.mesh()), front, {.wireframe = true}),
+                 studio.shot(map, front, {.colour = painted(colour), .wireframe = true})});
 }
 
 }  // namespace limitcheck::bench

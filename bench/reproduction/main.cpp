@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 
 #include "bench/reproduction/reproduction.h"
@@ -31,7 +33,18 @@ int main(int argc, char** argv) {
   fs::path folder = "build/report";
   bool quick = false;
   std::vector<std::string> parts, meshes, wanted, names = bench::picture_names();
-  names.insert(names.end(), {"model", "spheres", "matched", "timings", "shapes", "maps"});
+  const std::vector<std::pair<std::string, std::function<Json()>>> tables{
+      {"model", bench::model},
+      {"spheres", [&] { return bench::sphere_table(quick); }},
+      {"matched", [&] { return bench::matched_error_table(quick); }},
+      {"timings",
+       [&] {
+         return bench::timings(read(folder / "spheres.json", "spheres"),
+                               read(folder / "matched.json", "matched"), quick);
+       }},
+      {"shapes", [&] { return bench::shapes(meshes); }},
+      {"maps", [&] { return bench::maps(wanted); }}};
+  for (const auto& [name, table] : tables) names.push_back(name);
   app.add_option("PART", parts, "What to make; timings reads what spheres and matched have left")
       ->required()
       ->check(CLI::IsMember(names));
@@ -48,22 +61,12 @@ int main(int argc, char** argv) {
   try {
     fs::create_directories(folder);
     for (const std::string& part : parts) {
-      if (part == "model") {
-        save(part, bench::model());
-      } else if (part == "shapes") {
-        save(part, bench::shapes(meshes));
-      } else if (part == "maps") {
-        save(part, bench::maps(wanted));
-      } else if (part == "spheres") {
-        save(part, bench::sphere_table(quick));
-      } else if (part == "matched") {
-        save(part, bench::matched_error_table(quick));
-      } else if (part == "timings") {
-        save(part, bench::timings(read(folder / "spheres.json", "spheres"),
-                                  read(folder / "matched.json", "matched"), quick));
-      } else {
+      const auto table =
+          std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == part; });
+      if (table != tables.end())
+        save(part, table->second());
+      else
         bench::draw_picture(part, folder);
-      }
     }
   } catch (const std::exception& error) {
     fmt::print(stderr, "reproduction: {}\n", error.what());

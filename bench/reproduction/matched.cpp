@@ -69,9 +69,7 @@ Json matched_error_table(bool quick) {
     const auto point = [&](const Family& family, const std::string& setting,
                            const fast::DepthOptions& options, const Frame& frame) {
       const Turn turned = turn(frame, options, quick ? 4 : 12, seconds, Clock::kProcessor);
-      fast::CrackOptions cracks;
-      cracks.repair = family.repair;
-      const verify::Seen seen = judge.see(options, cracks);
+      const verify::Seen seen = judge.see(options, {.repair = family.repair});
       const Json timed = timing(turned);
       families.back().second.push_back({{"faces", faces},
                                         {"family", family.name},

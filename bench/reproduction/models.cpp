@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/triangle_middles.h"
+#include "bench/cases/matched.h"
 #include "bench/reproduction/reproduction.h"
 #include "bench/reproduction/scene.h"
 #include "data/bounding_box.h"
@@ -178,13 +178,8 @@ void each_triangle_error(const data::ControlMesh& mesh, const fast::DrawList<flo
 
 Json model() {
   const auto mesh = data::bumpy_sphere(200, kSphereSeed);
-  fast::DepthOptions depth;
-  depth.strategy = fast::Strategy::kCombined;
-  depth.cull = false;
-  const auto frame = frame_seen(mesh, depth);
-
+  const auto frame = frame_seen(mesh, {.strategy = fast::Strategy::kCombined, .cull = false});
   const double diagonal = data::box_diagonal(mesh);
-
   Triangles triangles;
   each_triangle_error(mesh, frame, [&](const TriangleError& error) {
     for (const std::int32_t v : error.draw->triangle(error.triangle)) {
@@ -203,22 +198,18 @@ Json shapes(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     try {
       const data::ControlMesh mesh = data::open_mesh(name).mesh;
-      fast::DepthOptions depth;
-      depth.strategy = fast::Strategy::kUniform;
-      for (depth.depth = 0; depth.depth < 4 && mesh.faces.size() << 2 * (depth.depth + 1) <= kTriangles;)
-        ++depth.depth;
-      fast::TessellatorOptions options;
-      options.scheme = data::natural_scheme(mesh);
-      fast::Tessellator<float> engine(mesh, options);
+      int depth = 0;
+      while (depth < 4 && mesh.faces.size() << 2 * (depth + 1) <= kTriangles) ++depth;
       fast::IndexedMesh<float> out;
-      engine.frame(depth, viewer(0), out);
+      fast::Tessellator<float>(mesh, {.scheme = data::natural_scheme(mesh)})
+          .frame(verify::uniform(depth), viewer(0), out);
       if (out.vertices.size() > 65535) throw data::ArgumentError("it has too many vertices for the view");
       std::vector<verify::Vector> positions;
       for (const auto& [p, n] : out.vertices) positions.push_back({p.x, p.y, p.z});
       std::vector<std::uint16_t> corners;
       for (const auto& t : out.triangles)
         for (const std::uint32_t v : t) corners.push_back(static_cast<std::uint16_t>(v));
-      list[name] = {{"depth", depth.depth},
+      list[name] = {{"depth", depth},
                     {"positions", packed(positions)},
                     {"triangles", base64(corners)},
                     {"face", base64(out.triangle_face)}};

@@ -16,13 +16,10 @@ namespace limitcheck::bench {
 
 namespace {
 
-fast::Point3 point(const reference::Vec3<double>& p) {
-  return {p.x, p.y, p.z};
-}
-
 /// The ring of a vertex after 0, 1 and 2 steps in place, the normals of its triangles moved to the vertex,
 /// and the cone about the limit normal that they have to enter.
-Image normal_cone(Studio& studio) {
+Image normal_cone() {
+  Studio studio = bumpy(200);
   reference::RefinedMesh<double> refined(studio.mesh());
   const fast::Adjacency adjacency(studio.mesh());
   const fast::DepthHeuristics heuristics(studio.mesh(), adjacency);
@@ -44,7 +41,9 @@ Image normal_cone(Studio& studio) {
   std::vector<Image> images;
   for (int level = 0; level <= 2; ++level) {
     const auto& positions = refined.positions();
-    const auto at = [&](std::int32_t w) { return point(positions[w]); };
+    const auto at = [&](std::int32_t w) {
+      return fast::Point3{positions[w].x, positions[w].y, positions[w].z};
+    };
     const fast::Point3 centre = at(v);
     const auto ring = refined.topology().ring(v);
     double reach = 0;
@@ -57,10 +56,7 @@ Image normal_cone(Studio& studio) {
       fast::Point3 n = cross(a - centre, b - centre);
       n = (1 / length(n)) * n;
       normals.push_back({centre, centre + reach * n});
-      for (const fast::Point3& p : {centre, a, b}) {
-        fan.vertices.push_back({{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-                                {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}});
-      }
+      for (const fast::Point3& p : {centre, a, b}) fan.vertices.push_back(vertex(p, n));
     }
     fan.draws.push_back(
         {0, static_cast<std::int32_t>(fan.vertices.size()), 0, 0, 0, fast::DrawMode::kTriangles});
@@ -77,15 +73,14 @@ Image normal_cone(Studio& studio) {
       last = rim;
     }
 
-    fast::Camera camera;
-    camera.target = centre + .25 * reach * axis;
-    camera.eye = centre + 2.3 * reach * (.55 * axis + .8 * side);
-    camera.up = axis;
-    camera.near = 1e-3 * reach;
-    camera.width = camera.height = kSize;
-    Appearance appearance;
-    appearance.wireframe = appearance.backfaces = true;
-    images.push_back(studio.shot(fan, camera, appearance, {{cone, kRed}, {normals, kBlue}}));
+    const fast::Camera camera{.eye = centre + 2.3 * reach * (.55 * axis + .8 * side),
+                              .target = centre + .25 * reach * axis,
+                              .up = axis,
+                              .width = kSize,
+                              .height = kSize,
+                              .near = 1e-3 * reach};
+    images.push_back(
+        studio.shot(fan, camera, {.wireframe = true, .backfaces = true}, {{cone, kRed}, {normals, kBlue}}));
     refined.refine();
   }
   return beside(images);
@@ -138,11 +133,7 @@ struct Picture {
   Image (*draw)();
 };
 const std::vector<Picture> kPictures{
-    {"figure-3",
-     [] {
-       Studio studio = bumpy(200);
-       return normal_cone(studio);
-     }},
+    {"figure-3", normal_cone},
     {"figure-8", fan_centres},
     {"figure-10", two_sizes},
     {"figure-13", random_depths},
@@ -155,12 +146,9 @@ const std::vector<Picture> kPictures{
 
 }  // namespace
 
-const std::vector<std::string>& picture_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const Picture& picture : kPictures) list.push_back(picture.name);
-    return list;
-  }();
+std::vector<std::string> picture_names() {
+  std::vector<std::string> names;
+  for (const Picture& picture : kPictures) names.push_back(picture.name);
   return names;
 }
 

@@ -11,7 +11,7 @@ namespace limitcheck::bench {
 
 /// figure-3, figure-8, figure-10, figure-13, figure-14; picture-cracks and picture-error,
 /// for the README; picture-sharp, picture-crease.
-const std::vector<std::string>& picture_names();
+std::vector<std::string> picture_names();
 
 /// One of these as NAME.png in the folder.
 void draw_picture(const std::string& name, const std::filesystem::path& folder);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -24,25 +25,19 @@ using verify::viewer;
 
 /// One frame for the viewer, with provenance.
 inline fast::DrawList<float> frame_seen(const data::ControlMesh& mesh, const fast::DepthOptions& depth,
-                                        fast::TessellatorOptions options = {}) {
-  options.provenance = true;
+                                        const fast::Camera& seen_by = viewer(0)) {
   fast::DrawList<float> frame;
-  fast::Tessellator<float>(mesh, options).frame(depth, viewer(0), frame);
+  fast::Tessellator<float>(mesh, {.provenance = true}).frame(depth, seen_by, frame);
   return frame;
 }
 
-struct NamedStrategy {
-  std::string name;
-  fast::DepthOptions options;
-};
-
 /// uniform-1 .. uniform-5, project-sphere, combined.
-inline std::vector<NamedStrategy> strategies() {
-  std::vector<NamedStrategy> list;
+inline std::vector<std::pair<std::string, fast::DepthOptions>> strategies() {
+  std::vector<std::pair<std::string, fast::DepthOptions>> list;
   for (int depth = 1; depth <= 5; ++depth)
-    list.push_back({"uniform-" + std::to_string(depth), verify::uniform(depth)});
+    list.emplace_back("uniform-" + std::to_string(depth), verify::uniform(depth));
   for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined})
-    list.push_back({std::string(fast::name(strategy)), verify::adaptive(strategy, 60)});
+    list.emplace_back(fast::name(strategy), verify::adaptive(strategy, 60));
   return list;
 }
 

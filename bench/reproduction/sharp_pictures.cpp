@@ -22,18 +22,12 @@ using verify::cross, verify::norm, verify::Vector, verify::operator-;
 
 constexpr int kDepth = 4;
 
-fast::SurfaceVertex<float> vertex(const Vector& p, const Vector& n) {
-  const auto narrow = [](const Vector& v) {
-    return fast::Vec3<float>{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-  };
-  return {narrow(p), narrow(n)};
-}
-
 void add(fast::DrawList<float>& list, std::int32_t face, const std::array<Vector, 3>& p,
          const std::array<Vector, 3>& n) {
   list.draws.push_back(
       {static_cast<std::int64_t>(list.vertices.size()), 3, 1, face, -1, fast::DrawMode::kTriangles});
-  for (std::size_t k = 0; k < 3; ++k) list.vertices.push_back(vertex(p[k], n[k]));
+  for (std::size_t k = 0; k < 3; ++k)
+    list.vertices.push_back(vertex(fast::to_point(p[k]), fast::to_point(n[k])));
 }
 
 fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {
@@ -104,11 +98,8 @@ Image open_crease() {
   for (const data::SharpEdge& e : mesh.sharpness.edges)
     crease.segments.push_back({fast::to_point(mesh.positions[e.a]), fast::to_point(mesh.positions[e.b])});
   fast::Camera camera = camera_at(30, 1.05 * data::box_diagonal(mesh));
-  Appearance control, map;
-  control.wireframe = true;
-  map.colour = [&](const fast::Draw& draw) { return colour.at(draw.first); };
-  return beside({studio.shot(flat_faces(mesh), camera, control, {crease}), studio.shot(surface, camera, {}),
-                 studio.shot(missed, camera, map)});
+  return beside({studio.shot(flat_faces(mesh), camera, {.wireframe = true}, {crease}),
+                 studio.shot(surface, camera, {}), studio.shot(missed, camera, {.colour = painted(colour)})});
 }
 
 Image adaptive_creases() {
@@ -120,15 +111,10 @@ Image adaptive_creases() {
   fast::Camera close = camera_at(25, .14 * height);
   close.target = {.09 * height, .112 * height, .19 * height};
   close.eye = close.target + close.eye;
-  fast::DepthOptions adaptive = strategy(fast::Strategy::kCombined);
-  adaptive.target_pixels = 40;
-  adaptive.angle_front = adaptive.angle_silhouette = 8;
+  const fast::DepthOptions adaptive{
+      .strategy = fast::Strategy::kCombined, .target_pixels = 40, .angle_front = 8, .angle_silhouette = 8};
   const auto shot = [&](const fast::Camera& camera, fast::Repair repair) {
-    fast::CrackOptions cracks;
-    cracks.repair = repair;
-    Appearance appearance = by_depth(true);
-    appearance.backfaces = true;  // what shows through a crack is the inside, in red
-    return studio.shot(studio.frame(adaptive, whole, cracks), camera, appearance);
+    return studio.shot(studio.frame(adaptive, whole, {.repair = repair}), camera, with_inside());
   };
   return beside(
       {shot(whole, fast::Repair::kFan), shot(close, fast::Repair::kNone), shot(close, fast::Repair::kFan)});

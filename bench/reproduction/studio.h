@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -21,12 +23,11 @@ inline constexpr int kSize = 640;
 
 /// Looks at the origin from so many degrees round it and from a little above.
 inline fast::Camera camera_at(double degrees, double distance) {
-  fast::Camera camera;
   const double angle = degrees * std::numbers::pi / 180;
-  camera.eye = {distance * std::sin(angle), .35 * distance, distance * std::cos(angle)};
-  camera.field_of_view = 40;
-  camera.width = camera.height = kSize;
-  return camera;
+  return {.eye = {distance * std::sin(angle), .35 * distance, distance * std::cos(angle)},
+          .field_of_view = 40,
+          .width = kSize,
+          .height = kSize};
 }
 
 /// Light for shallow, dark for deep; readable without colour vision.
@@ -48,6 +49,13 @@ inline Colour heat(double t) {
   return c;
 }
 
+inline fast::SurfaceVertex<float> vertex(const fast::Point3& position, const fast::Point3& normal) {
+  const auto narrow = [](const fast::Point3& p) {
+    return fast::Vec3<float>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
+  return {narrow(position), narrow(normal)};
+}
+
 struct Lines {
   std::vector<Segment> segments;
   Colour colour;
@@ -61,12 +69,9 @@ class Studio {
 
   fast::DrawList<float> frame(const fast::DepthOptions& depth, const fast::Camera& seen_by,
                               const fast::CrackOptions& cracks = {}) const {
-    fast::TessellatorOptions options;
-    options.cracks = cracks;
-    options.scheme = data::natural_scheme(mesh_);
-    fast::Tessellator<float> tessellator(mesh_, options);
     fast::DrawList<float> out;
-    tessellator.frame(depth, seen_by, out);
+    fast::Tessellator<float>(mesh_, {.cracks = cracks, .scheme = data::natural_scheme(mesh_)})
+        .frame(depth, seen_by, out);
     return out;
   }
   Image shot(const fast::DrawList<float>& frame, const fast::Camera& camera, const Appearance& appearance,
@@ -85,28 +90,31 @@ class Studio {
 
 /// Strips by depth, fans in orange.
 inline Appearance by_depth(bool wireframe) {
-  Appearance a;
-  a.colour = [](const fast::Draw& draw) {
+  const auto colour = [](const fast::Draw& draw) {
     return draw.kind == fast::Kind::kFan ? Colour{.85f, .45f, .1f} : depth_colour(draw.depth);
   };
-  a.wireframe = wireframe;
+  return {.colour = colour, .wireframe = wireframe};
+}
+/// The same, and what shows through a crack, the inside, in red.
+inline Appearance with_inside() {
+  Appearance a = by_depth(true);
+  a.backfaces = true;
   return a;
 }
+/// By the first vertex of a draw.
+inline auto painted(const std::map<std::int64_t, Colour>& colours) {
+  return [&colours](const fast::Draw& draw) { return colours.at(draw.first); };
+}
 
-inline fast::DepthOptions strategy(fast::Strategy name, int depth = 4) {
-  fast::DepthOptions options;
-  options.strategy = name;
-  options.depth = depth;
-  return options;
+inline fast::DepthOptions strategy(fast::Strategy name) {
+  return {.strategy = name, .depth = 4};
 }
 
 inline Studio bumpy(int faces) {
   return Studio(data::bumpy_sphere(faces, kSphereSeed));
 }
 
-/// Depths 1 and 4 side by side, near and from the side: the cracks that they leave, or what became of them.
-Image cracks_close_up(fast::Repair repair);
-/// The two beside each other.
+/// Depths 1 and 4 side by side, near and from the side: the cracks that they leave, and what becomes of them.
 Image cracks_and_repair();
 /// One fan, every triangle in one shade: its centre on the flat triangle, and on the limit surface.
 Image fan_centres();

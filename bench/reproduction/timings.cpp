@@ -106,9 +106,7 @@ Json time_per_point(bool quick) {
               std::span<const fast::LatticePoint>) override {}
   } sink;
   const auto mesh = data::bumpy_sphere(200, kSphereSeed);
-  fast::TessellatorOptions options;
-  options.threads = 1;
-  fast::Tessellator<float> engine(mesh, options);
+  fast::Tessellator<float> engine(mesh, {.threads = 1});
   std::vector<double> depths, nanoseconds;
   double widest = 1;
   for (int depth = 3; depth <= 7; ++depth) {

@@ -17,11 +17,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kRepetitions = 3;
 
-fast::TessellatorOptions options(int threads, fast::Repair repair = fast::Repair::kFan) {
-  fast::TessellatorOptions o;
-  o.threads = threads;
-  o.cracks.repair = repair;
-  return o;
+template <class Engine>
+Frame frame_of(const data::ControlMesh& mesh, const fast::TessellatorOptions& options) {
+  return [engine = std::make_shared<Engine>(mesh, options)](
+             const auto& depth, const auto& camera, auto& out) { return engine->frame(depth, camera, out); };
 }
 
 void add(fast::FrameStats& sum, const fast::FrameStats& s) {
@@ -42,17 +41,11 @@ double seconds_of(Clock clock) {
 }
 
 Frame sliding_window(const data::ControlMesh& mesh, int threads, fast::Repair repair) {
-  auto engine = std::make_shared<fast::Tessellator<float>>(mesh, options(threads, repair));
-  return [engine](const auto& depth, const auto& camera, auto& out) {
-    return engine->frame(depth, camera, out);
-  };
+  return frame_of<fast::Tessellator<float>>(mesh, {.cracks = {.repair = repair}, .threads = threads});
 }
 
 Frame row_stream(const data::ControlMesh& mesh, int threads) {
-  auto engine = std::make_shared<fast::row_stream::StreamTessellator>(mesh, options(threads));
-  return [engine](const auto& depth, const auto& camera, auto& out) {
-    return engine->frame(depth, camera, out);
-  };
+  return frame_of<fast::row_stream::StreamTessellator>(mesh, {.threads = threads});
 }
 
 Turn turn(const Frame& frame, const fast::DepthOptions& depth, int frames, double seconds, Clock clock,

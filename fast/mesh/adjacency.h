@@ -23,7 +23,7 @@ namespace limitcheck::fast {
 ///              h0                  Boundary: h0 has no twin (the edge v -> r0 is the first boundary edge),
 ///                                  every face is met, then comes -1.
 ///
-/// Time and space O(faces + vertices) for any input and valence (bench/setup_bench). Space: 3 K ints per face
+/// Time and space O(faces + vertices) for any input and valence (bench/frame_bench). Space: 3 K ints per face
 /// and 2 per vertex.
 template <int K>
 class BasicAdjacency {

@@ -17,10 +17,7 @@ namespace {
 using namespace test;
 
 FilesAudit audit_quads(const data::ControlMesh& mesh, FileTessellation t) {
-  FilesOptions options;
-  options.scheme = data::Scheme::kCatmullClark;
-  options.needs_normals = true;
-  return audit(mesh, std::move(t), options);
+  return audit(mesh, std::move(t), {.needs_normals = true, .scheme = data::Scheme::kCatmullClark});
 }
 
 TEST(QuadFiles, ExactPointsOfTheLimitSurfaceHaveNoFinding) {
@@ -67,16 +64,9 @@ TEST(QuadFiles, LoopsPointsOfTheTriangulatedMeshAreNamed) {
       EXPECT_TRUE(says(said, limit ? "limit points of Loop's rule" : "refined by Loop's rule"));
       EXPECT_TRUE(says(said, "not Catmull-Clark subdivision"));
     }
-    const std::string flat =
-        row(audit_quads(mesh, read_obj([&] {
-                          std::string text;
-                          for (const Vector& p : scheme_points(cut, GuessedRule::kLinear, 2, false))
-                            text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
-                          return text;
-                        }())),
-            "file-distance")
-            .message;
-    EXPECT_TRUE(says(flat, "nothing was subdivided"));
+    const FileTessellation flat =
+        cloud_of(scheme_points(cut, GuessedRule::kLinear, 2, false), kWritings.at("double"));
+    EXPECT_TRUE(says(row(audit_quads(mesh, flat), "file-distance").message, "nothing was subdivided"));
   }
 }
 

@@ -24,11 +24,7 @@ namespace {
 using namespace test;
 
 FilesAudit audit_sharp(const TestMesh& m, FileTessellation t) {
-  FilesOptions options;
-  options.scheme = m.scheme;
-  options.needs_normals = true;
-  options.pieces = 1 << 13;
-  return audit(m.mesh, std::move(t), options);
+  return audit(m.mesh, std::move(t), {.needs_normals = true, .scheme = m.scheme, .pieces = 1 << 13});
 }
 
 std::string said(const FilesAudit& a) {

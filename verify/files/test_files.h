@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -29,22 +30,21 @@
 
 namespace limitcheck::verify::test {
 
+inline void add_triangle(FileTessellation& t, const std::array<std::int32_t, 3>& corners) {
+  t.triangles.push_back(corners);
+  t.polygon.push_back(t.polygons++);
+}
+
 // The limit surface at a depth, in float as engines deliver it.
 inline FileTessellation exact(const data::ControlMesh& mesh, int depth, bool limit = true) {
   const auto refined = reference::refine<double>(mesh, depth);
   const auto limits = refined.limits();
   FileTessellation t{.name = "test.ply"};
-  const auto& points = limit ? limits.positions : refined.positions();
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    const auto& p = points[v];
-    const auto& n = limits.normals[v];
+  for (const auto& p : limit ? limits.positions : refined.positions())
     t.positions.push_back({float(p.x), float(p.y), float(p.z)});
-    t.normals.push_back({static_cast<std::int32_t>(v), {float(n.x), float(n.y), float(n.z)}});
-  }
-  t.triangles = refined.triangles();
-  t.polygons = static_cast<std::int64_t>(t.triangles.size());
-  t.polygon.resize(t.triangles.size());
-  std::iota(t.polygon.begin(), t.polygon.end(), 0);
+  for (const auto& n : limits.normals)
+    t.normals.push_back({static_cast<std::int32_t>(t.normals.size()), {float(n.x), float(n.y), float(n.z)}});
+  for (const auto& corners : refined.triangles()) add_triangle(t, corners);
   t.used.assign(t.positions.size(), true);
   return t;
 }
@@ -69,11 +69,6 @@ inline FileTessellation shuffled(const FileTessellation& from, std::uint64_t see
     t.triangles[order[k]] = {to[f[turn]], to[f[(turn + 1) % 3]], to[f[(turn + 2) % 3]]};
   }
   return t;
-}
-
-inline void add_triangle(FileTessellation& t, const std::array<std::int32_t, 3>& corners) {
-  t.triangles.push_back(corners);
-  t.polygon.push_back(t.polygons++);
 }
 
 inline FilesAudit audit(const data::ControlMesh& mesh, FileTessellation t, const FilesOptions& options = {},
@@ -180,85 +175,73 @@ inline FileTessellation quad_file(const data::ControlMesh& mesh, int depth, bool
   return read_obj(obj_of_quads(mesh, depth, limit));
 }
 
-/// A file that is made triangle by triangle.
-struct SharpFile {
-  FileTessellation t;
-
-  /// The corners' vertices, and their normals on the side of this triangle.
-  void add(const std::array<std::int32_t, 3>& corners, const std::array<Vector, 3>& normals) {
-    auto& which = t.corner_normals.emplace_back();
-    for (std::size_t c = 0; c < 3; ++c) {
-      which[c] = static_cast<std::int32_t>(t.normals.size());
-      t.normals.push_back({corners[c], normals[c]});
-      t.used[corners[c]] = true;
-    }
-    t.triangles.push_back(corners);
-    t.polygon.push_back(t.polygons++);
-  }
-};
-
-inline SharpFile begin_file(const std::vector<reference::Vec3<double>>& positions) {
-  SharpFile file;
-  file.t.name = "sharp.obj";
-  for (const auto& p : positions) file.t.positions.push_back(vector_of(p));
-  file.t.used.assign(positions.size(), false);
-  return file;
-}
-
-/// The limit surface at a depth >= 1, holes left out, exact but for rounding.
+/// The limit surface at a depth >= 1, holes left out, exact but for rounding; each corner of a triangle has the normal
+/// of its side.
 inline FileTessellation sharp_file(const data::ControlMesh& mesh, data::Scheme scheme, int depth) {
   const reference::Surface surface(mesh, scheme);
-  std::vector<bool> hole(mesh.faces.size(), false);
-  for (const std::int32_t f : mesh.holes) hole[f] = true;
-  const auto normal = [&](std::size_t f, std::size_t corner, double u, double v) {
-    return vector_of(
-        surface.evaluate(static_cast<int>(f), static_cast<int>(corner), u, v, reference::Order::kFirst)
-            .normal);
-  };
+  const bool loop = scheme == data::Scheme::kLoop;
+  FileTessellation t{.name = "sharp.obj"};
   // A triangle of the lattice at a corner of a face, which has so many steps along a side.
-  const auto put = [&](SharpFile& file, const auto& vertex, std::size_t f, std::size_t corner, int steps,
+  const auto put = [&](auto&& vertex, std::size_t f, std::size_t corner, int steps,
                        std::array<std::array<int, 2>, 3> at) {
-    std::array<std::int32_t, 3> corners{};
-    std::array<Vector, 3> normals{};
+    auto& triangle = t.triangles.emplace_back();
+    auto& normals = t.corner_normals.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = vertex(at[c][0], at[c][1]);
-      normals[c] =
-          normal(f, corner, at[c][0] / static_cast<double>(steps), at[c][1] / static_cast<double>(steps));
+      const double u = at[c][0] / static_cast<double>(steps), v = at[c][1] / static_cast<double>(steps);
+      const auto s =
+          surface.evaluate(static_cast<int>(f), static_cast<int>(corner), u, v, reference::Order::kFirst);
+      triangle[c] = vertex(f, corner, at[c][0], at[c][1]);
+      normals[c] = static_cast<std::int32_t>(t.normals.size());
+      t.normals.push_back({triangle[c], vector_of(s.normal)});
+      t.used[triangle[c]] = true;
     }
-    file.add(corners, normals);
+    t.polygon.push_back(t.polygons++);
   };
-  const int n = 1 << depth;
-  if (scheme == data::Scheme::kLoop) {
-    reference::RefinedMesh<double> refined(mesh);
+  const auto fill = [&](auto refined, auto&& vertex) {
     for (int step = 0; step < depth; ++step) refined.refine();
-    SharpFile file = begin_file(refined.limits().positions);
+    const auto named = [&](auto... place) { return vertex(refined, place...); };
+    for (const auto& p : refined.limits().positions) t.positions.push_back(vector_of(p));
+    t.used.assign(t.positions.size(), false);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-      const auto vertex = [&](int i, int j) { return refined.vertex(f, i, j); };
-      for (int j = 0; j < n && !hole[f]; ++j)
-        for (int i = 0; i + j < n; ++i) {
-          put(file, vertex, f, 0, n, {{{i, j}, {i + 1, j}, {i, j + 1}}});
-          if (i + j + 1 < n) put(file, vertex, f, 0, n, {{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
-        }
+      if (std::count(mesh.holes.begin(), mesh.holes.end(), static_cast<std::int32_t>(f)) > 0) continue;
+      const bool whole = loop || mesh.faces[f].size() == 4;
+      const int n = 1 << (whole ? depth : depth - 1);
+      for (std::size_t k = 0; k < (whole ? 1 : mesh.faces[f].size()); ++k)
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < (loop ? n - j : n); ++i) {
+            put(named, f, k, n, {{{i, j}, {i + 1, j}, {loop ? i : i + 1, j + 1}}});
+            if (!loop) put(named, f, k, n, {{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
+            if (loop && i + j + 1 < n) put(named, f, k, n, {{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
+          }
     }
-    return file.t;
-  }
-  reference::catmull_clark::RefinedMesh<double> refined(mesh.faces, reference::positions_of<double>(mesh),
-                                                        mesh.sharpness);
-  for (int step = 0; step < depth; ++step) refined.refine();
-  SharpFile file = begin_file(refined.limits().positions);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const bool quad = mesh.faces[f].size() == 4;
-    const int steps = quad ? n : n / 2;
-    for (std::size_t k = 0; k < (quad ? 1 : mesh.faces[f].size()) && !hole[f]; ++k) {
-      const auto vertex = [&](int i, int j) { return refined.vertex(f, k, i, j); };
-      for (int j = 0; j < steps; ++j)
-        for (int i = 0; i < steps; ++i) {
-          put(file, vertex, f, k, steps, {{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
-          put(file, vertex, f, k, steps, {{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
-        }
-    }
-  }
-  return file.t;
+  };
+  if (loop)
+    fill(reference::RefinedMesh<double>(mesh),
+         [](auto& refined, std::size_t f, std::size_t, int i, int j) { return refined.vertex(f, i, j); });
+  else
+    fill(reference::catmull_clark::RefinedMesh<double>(mesh.faces, reference::positions_of<double>(mesh),
+                                                       mesh.sharpness),
+         [](auto& refined, auto... place) { return refined.vertex(place...); });
+  return t;
+}
+
+// As programs write coordinates: floats, with six decimals, with six digits, and as they are.
+using Writing = double (*)(double);
+inline const std::map<std::string, Writing> kWritings{
+    {"float", [](double x) { return static_cast<double>(static_cast<float>(x)); }},
+    {"decimals", [](double x) { return std::stod(fmt::format("{:.6f}", x)); }},
+    {"four decimals", [](double x) { return std::stod(fmt::format("{:.4f}", x)); }},
+    {"digits", [](double x) { return std::stod(fmt::format("{:.6g}", x)); }},
+    {"float's nine digits", [](double x) { return std::stod(fmt::format("{:.9g}", static_cast<float>(x))); }},
+    {"double", [](double x) { return x; }}};
+
+// The points that some scheme makes, as a file without faces.
+inline FileTessellation cloud_of(std::vector<Vector> points, Writing writing) {
+  FileTessellation t{.name = "cloud", .positions = std::move(points)};
+  for (Vector& p : t.positions)
+    for (double& x : p) x = writing(x);
+  t.used.assign(t.positions.size(), true);
+  return t;
 }
 
 /// With one normal for each vertex, that of the first triangle that has it.

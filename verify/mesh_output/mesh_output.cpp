@@ -27,17 +27,8 @@ static_assert(std::endian::native == std::endian::little, "records are written a
 static_assert(sizeof(Vertex) == 24, "x y z nx ny nz, as the headers of the files say");
 
 // Viridis at equal steps, depths 0 .. kDeepest.
-constexpr std::array<std::array<std::uint8_t, 3>, 11> kDepthColours{{{68, 1, 84},
-                                                                     {72, 36, 117},
-                                                                     {65, 68, 135},
-                                                                     {53, 95, 141},
-                                                                     {42, 120, 142},
-                                                                     {33, 145, 140},
-                                                                     {34, 168, 132},
-                                                                     {68, 191, 112},
-                                                                     {122, 209, 81},
-                                                                     {189, 223, 38},
-                                                                     {253, 231, 37}}};
+constexpr std::array kDepthColours{0x440154U, 0x482475U, 0x414487U, 0x355F8DU, 0x2A788EU, 0x21918CU,
+                                   0x22A884U, 0x44BF70U, 0x7AD151U, 0xBDDF26U, 0xFDE725U};
 static_assert(kDepthColours.size() == fast::kDeepest + 1);
 
 // The triangles of each class in their order; one list of all without classes.
@@ -225,8 +216,10 @@ void write_glb(const Path& file, const Mesh& mesh, const Colouring& colouring) {
 
 Colouring colour_by_depth(const fast::IndexedMesh<float>& mesh, std::span<const std::int32_t> depth) {
   Colouring colouring;
-  for (std::size_t d = 0; d < kDepthColours.size(); ++d) {
-    colouring.classes.push_back({fmt::format("depth_{}", d), kDepthColours[d]});
+  for (const unsigned rgb : kDepthColours) {
+    const auto byte = [&](int shift) { return static_cast<std::uint8_t>(rgb >> shift & 255U); };
+    colouring.classes.push_back(
+        {fmt::format("depth_{}", colouring.classes.size()), {byte(16), byte(8), byte(0)}});
   }
   colouring.of_triangle.reserve(mesh.triangles.size());
   for (const std::int32_t face : mesh.triangle_face) {

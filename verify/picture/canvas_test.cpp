@@ -16,11 +16,7 @@ using Vertex = fast::SurfaceVertex<float>;
 /// Looks along -z from distance 1 so that a length of 1 in the plane z = 0 is 8 pixels; (0, 0) is the middle
 /// of 16 x 16 pixels.
 fast::Camera small_camera() {
-  fast::Camera camera;
-  camera.eye = {0, 0, 1};
-  camera.width = camera.height = 16;
-  camera.field_of_view = 90;
-  return camera;
+  return {.eye = {0, 0, 1}, .field_of_view = 90, .width = 16, .height = 16};
 }
 
 /// A point by the pixel coordinates it is seen at, y downwards; facing the viewer.

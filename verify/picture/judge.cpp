@@ -105,31 +105,21 @@ Difference DifferenceMeter::result() const {
 }
 
 fast::Camera viewer(double turn) {
-  fast::Camera camera;
   const double angle = 2 * std::numbers::pi * turn;
-  camera.eye = {4 * std::sin(angle), 1, 4 * std::cos(angle)};
-  return camera;
+  return {.eye = {4 * std::sin(angle), 1, 4 * std::cos(angle)}};
 }
 
 fast::DepthOptions adaptive(fast::Strategy strategy, double pixels) {
-  fast::DepthOptions options;
-  options.strategy = strategy;
-  options.target_pixels = pixels;
-  options.angle_front = options.angle_silhouette = std::min(180., pixels / 2);
-  return options;
+  const double angle = std::min(180., pixels / 2);
+  return {.strategy = strategy, .target_pixels = pixels, .angle_front = angle, .angle_silhouette = angle};
 }
 
 fast::DepthOptions uniform(int depth) {
-  fast::DepthOptions options;
-  options.strategy = fast::Strategy::kUniform;
-  options.depth = depth;
-  return options;
+  return {.strategy = fast::Strategy::kUniform, .depth = depth};
 }
 
 Judge::Judge(data::ControlMesh mesh, int truth_depth) : mesh_(std::move(mesh)) {
-  fast::TessellatorOptions options;
-  options.max_depth = truth_depth;
-  fast::Tessellator<float> engine(mesh_, options);
+  fast::Tessellator<float> engine(mesh_, {.max_depth = truth_depth});
   for (const double turn : kViews) {
     Canvas canvas(viewer(turn));
     engine.frame(uniform(truth_depth), viewer(turn), canvas);
@@ -138,9 +128,7 @@ Judge::Judge(data::ControlMesh mesh, int truth_depth) : mesh_(std::move(mesh)) {
 }
 
 Seen Judge::see(const fast::DepthOptions& strategy, const fast::CrackOptions& cracks) const {
-  fast::TessellatorOptions options;
-  options.cracks = cracks;
-  fast::Tessellator<float> engine(mesh_, options);
+  fast::Tessellator<float> engine(mesh_, {.cracks = cracks});
   Seen seen;
   DifferenceMeter meter;
   for (std::size_t k = 0; k < std::size(kViews); ++k) {

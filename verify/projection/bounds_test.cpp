@@ -159,112 +159,95 @@ TEST(Bounds, AreZeroOfAFlatSheetOfParallelograms) {
 
 TEST(Bounds, FallWithEveryDepth) {
   const auto falls = [](const data::ControlMesh& mesh) {
-    return SurfaceLattice(mesh, 4).largest_deviation() / SurfaceLattice(mesh, 3).largest_deviation();
+    return test::largest_deviation(SurfaceLattice(mesh, 4)) /
+           test::largest_deviation(SurfaceLattice(mesh, 3));
   };
   EXPECT_LT(falls(data::icosahedron()), .5);
   EXPECT_LT(falls(data::quad_torus(5, 4)), .3) << "regular: to a quarter";
   EXPECT_LT(falls(data::quad_cube()), .6);
 }
 
-// Two triangles (0 1 2), (1 3 2): the edge 1-2 inside, the rest boundary.
-const data::ControlMesh kTwo{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}};
-
-TEST(Domain, KnowsTheFaceAcrossAnEdgeAndTheBoundary) {
-  const Domain d(kTwo);
-  EXPECT_EQ(d.across(0, 0), 1);
-  EXPECT_EQ(d.across(1, 1), 0);
-  EXPECT_EQ(d.across(0, 1), -1);
-  EXPECT_EQ(d.faces_at(1).size(), 2U);
-  EXPECT_EQ(d.faces_at(3).size(), 1U);
-}
-
-// In the plane with 0 = (0, 0), 1 = (1, 0), 2 = (0, 1), 3 = (1, 1): (x, y) = l1 (1, 0) + l2 (0, 1) + l3 (1,
-// 1).
-TEST(Domain, AStraightWalkIsStraightInTheUnfoldedPlane) {
-  const Domain d(kTwo);
-  const FacePoint end = d.walk({0, {.5, .25, .25}}, {-.7, .5, .2});  // to (.75, .45)
-  ASSERT_EQ(end.face, 1);                                            // 1 = (1,0), 3 = (1,1), 2 = (0,1)
-  EXPECT_NEAR(end.l[0] + end.l[1], .75, 1e-15);
-  EXPECT_NEAR(end.l[1] + end.l[2], .45, 1e-15);
-}
-
-TEST(Domain, AWalkEndsAtTheBoundary) {
-  const Domain d(kTwo);
-  const FacePoint end = d.walk({0, {.5, .25, .25}}, {.5, 0, -.5});  // straight down from (.25, .25)
-  EXPECT_EQ(end.face, 0);
-  EXPECT_EQ(end.l[2], 0);
-  EXPECT_NEAR(end.l[1], .25, 1e-15);
-}
-
-TEST(Domain, ExpressesAPointOfACommonEdgeInTheOtherFaceOnly) {
-  const Domain d(kTwo);
-  FacePoint there;
-  ASSERT_TRUE(d.express({0, {0, .25, .75}}, 1, there));
-  EXPECT_EQ(there.l, (std::array<double, 3>{.25, 0, .75}));
-  EXPECT_FALSE(d.express({0, {.1, .2, .7}}, 1, there));
-}
-
-// Two unit squares side by side in the plane, (0, 0) to (2, 1). Either may begin at any of its corners.
-constexpr std::array<std::array<std::int32_t, 4>, 2> kSquares{{{0, 1, 4, 3}, {1, 2, 5, 4}}};
-data::ControlMesh two_squares(int first, int second) {
-  data::ControlMesh mesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}, {}};
-  const std::array turn{first, second};
-  for (std::size_t f = 0; f < 2; ++f) {
-    std::array<std::int32_t, 4> face{};
-    for (int k = 0; k < 4; ++k) face[k] = kSquares[f][(k + turn[f]) % 4];
-    mesh.faces.push_back(face);
+// Two faces side by side in the plane: the triangles of the unit square, or two unit squares. Either may begin at any of
+// its corners. Vertex 0 is the first one's alone.
+data::ControlMesh two_faces(bool squares, int first, int second) {
+  std::vector<std::int32_t> left{0, 1, 2}, right{1, 3, 2};
+  data::ControlMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {}};
+  if (squares) {
+    left = {0, 1, 3, 2}, right = {1, 4, 5, 3};
+    mesh.positions.insert(mesh.positions.end(), {{2, 0, 0}, {2, 1, 0}});
   }
+  std::rotate(left.begin(), left.begin() + first, left.end());
+  std::rotate(right.begin(), right.begin() + second, right.end());
+  mesh.faces.push_back(left);
+  mesh.faces.push_back(right);
   return mesh;
 }
 
-// Where a point lies in that plane.
+// Where a point lies in that plane: from the first corner of its face, along its first side and its last.
 Vector in_the_plane(const data::ControlMesh& mesh, const FacePoint& p) {
   const auto face = mesh.faces[p.face];
-  const Vector o = mesh.positions[face[0]], x = mesh.positions[face[1]], y = mesh.positions[face[3]];
+  const Vector o = mesh.positions[face[0]], x = mesh.positions[face[1]], y = mesh.positions[face.back()];
   return o + p.l[1] * (x - o) + p.l[2] * (y - o);
 }
 FacePoint from_the_plane(const data::ControlMesh& mesh, std::int32_t f, const Vector& p) {
   const auto face = mesh.faces[f];
-  const Vector o = mesh.positions[face[0]];
-  return {f, Chart::at(dot(p - o, Vector(mesh.positions[face[1]]) - o),
-                       dot(p - o, Vector(mesh.positions[face[3]]) - o))};
+  const Vector o = mesh.positions[face[0]], a = mesh.positions[face[1]] - o,
+               b = mesh.positions[face.back()] - o;
+  const Vector q = p - o;  // a and b span the area 1
+  return {f, Chart::at(q[0] * b[1] - q[1] * b[0], a[0] * q[1] - a[1] * q[0])};
 }
 
-TEST(Domain, ASquareIsLeftAcrossAnySideIntoASquareThatBeginsAnywhere) {
-  for (int first = 0; first < 4; ++first)
-    for (int second = 0; second < 4; ++second) {
-      const data::ControlMesh mesh = two_squares(first, second);
-      const Domain d(mesh);
-      const int side = (1 - first + 4) % 4;  // x = 1
-      ASSERT_EQ(d.across(0, side), 1);
-      EXPECT_EQ(d.across(1, d.side_across(0, side)), 0);
-      const FacePoint start = from_the_plane(mesh, 0, {.5, .25, 0});
-      const FacePoint far = from_the_plane(mesh, 0, {1.75, .875, 0});
-      const FacePoint end =
-          d.walk(start, {far.l[0] - start.l[0], far.l[1] - start.l[1], far.l[2] - start.l[2]});
-      EXPECT_EQ(end.face, 1) << first << second;
-      EXPECT_LE(norm(in_the_plane(mesh, end) - Vector{1.75, .875, 0}), 1e-15) << first << second;
-      EXPECT_LE(norm(in_the_plane(mesh, {1, d.unfolded(0, side, far.l)}) - Vector{1.75, .875, 0}), 1e-15);
-      const FacePoint away = from_the_plane(mesh, 0, {.5, -3, 0});
-      const FacePoint stopped =
-          d.walk(start, {away.l[0] - start.l[0], away.l[1] - start.l[1], away.l[2] - start.l[2]});
-      EXPECT_EQ(in_the_plane(mesh, stopped), (Vector{.5, 0, 0})) << first << second;
-    }
-}
-
-TEST(Domain, APointOfACommonSideOrCornerOfSquaresHasANameInBoth) {
-  for (int first = 0; first < 4; ++first)
-    for (int second = 0; second < 4; ++second) {
-      const data::ControlMesh mesh = two_squares(first, second);
-      const Domain d(mesh);
-      FacePoint there;
-      for (const Vector& p : {Vector{1, .25, 0}, Vector{1, 0, 0}, Vector{1, 1, 0}}) {
-        ASSERT_TRUE(d.express(from_the_plane(mesh, 0, p), 1, there));
-        EXPECT_EQ(in_the_plane(mesh, there), p) << first << second;
+template <class Test>
+void for_two_faces(Test&& test) {
+  for (const bool squares : {false, true})
+    for (int first = 0; first < (squares ? 4 : 3); ++first)
+      for (int second = 0; second < (squares ? 4 : 3); ++second) {
+        SCOPED_TRACE(testing::Message() << (squares ? "squares " : "triangles ") << first << ' ' << second);
+        test(two_faces(squares, first, second), squares);
       }
-      for (const Vector& p : {Vector{.75, .25, 0}, Vector{0, 1, 0}, Vector{.5, 1, 0}})
-        EXPECT_FALSE(d.express(from_the_plane(mesh, 0, p), 1, there)) << first << second;
+}
+
+// In the plane a walk is straight, and ends at the boundary.
+TEST(Domain, AFaceIsLeftAcrossTheCommonSideIntoOneThatBeginsAnywhere) {
+  for_two_faces([](const data::ControlMesh& mesh, bool squares) {
+    const Domain d(mesh);
+    int side = -1;
+    for (int k = 0; k < d.chart().corners(); ++k)
+      if (d.vertex(0, d.chart().first(k)) == 1)
+        side = k;
+      else
+        EXPECT_EQ(d.across(0, k), -1);
+    ASSERT_EQ(d.across(0, side), 1);
+    EXPECT_EQ(d.across(1, d.side_across(0, side)), 0);
+    EXPECT_EQ(d.faces_at(1).size(), 2U);
+    EXPECT_EQ(d.faces_at(0).size(), 1U);
+    const Vector from = squares ? Vector{.5, .25, 0} : Vector{.25, .25, 0};
+    const Vector to = squares ? Vector{1.75, .875, 0} : Vector{.75, .4375, 0};
+    const FacePoint start = from_the_plane(mesh, 0, from), far = from_the_plane(mesh, 0, to);
+    const auto walk = [&](const FacePoint& end) {
+      return d.walk(start, {end.l[0] - start.l[0], end.l[1] - start.l[1], end.l[2] - start.l[2]});
+    };
+    EXPECT_EQ(walk(far).face, 1);
+    EXPECT_LE(norm(in_the_plane(mesh, walk(far)) - to), 1e-15);
+    EXPECT_LE(norm(in_the_plane(mesh, {1, d.unfolded(0, side, far.l)}) - to), 1e-15);
+    const FacePoint stopped = walk(from_the_plane(mesh, 0, {from[0], -3, 0}));
+    EXPECT_EQ(stopped.face, 0);
+    EXPECT_EQ(in_the_plane(mesh, stopped), (Vector{from[0], 0, 0}));
+  });
+}
+
+TEST(Domain, APointOfACommonSideOrCornerHasANameInBothFaces) {
+  for_two_faces([](const data::ControlMesh& mesh, bool squares) {
+    const Domain d(mesh);
+    FacePoint there;
+    const Vector inside = squares ? Vector{1, .25, 0} : Vector{.25, .75, 0};
+    for (const Vector& p : {inside, Vector{1, 0, 0}, squares ? Vector{1, 1, 0} : Vector{0, 1, 0}}) {
+      ASSERT_TRUE(d.express(from_the_plane(mesh, 0, p), 1, there));
+      EXPECT_EQ(in_the_plane(mesh, there), p);
     }
+    for (const Vector& p : {.75 * inside, Vector{0, 0, 0}, Vector{.5, 0, 0}})
+      EXPECT_FALSE(d.express(from_the_plane(mesh, 0, p), 1, there));
+  });
 }
 
 TEST(HighValenceVertex, GivesThePointsAndDerivativesOfStamsMethod) {

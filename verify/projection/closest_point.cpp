@@ -18,6 +18,7 @@ struct Minimum {
   bool stationary = false;
 };
 
+// From `start` to a local minimum of |s - p|. `scale`: the size of the mesh, which says what counts as rounding.
 class Descent {
  public:
   Descent(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale)
@@ -30,17 +31,13 @@ class Descent {
     evaluate(at_);
   }
 
-  Minimum run_quickly() {
-    if (s_.at_corner) leave_corner();
-    const bool stationary = newton();
-    return {at_, position_, distance_, stationary};
-  }
-
-  Minimum run() {
+  // `quickly`: by Newton's iteration alone.
+  Minimum run(bool quickly) {
     const FacePoint start = at_;
     const double from_start = distance_;
     if (s_.at_corner) leave_corner();
-    if (newton() && distance_ <= from_start) return {at_, position_, distance_, true};
+    const bool stationary = newton();
+    if (quickly || (stationary && distance_ <= from_start)) return {at_, position_, distance_, stationary};
     if (from_start < distance_) evaluate(start);
     pattern_search();
     return {at_, position_, distance_, newton() || pattern_is_minimal_};
@@ -92,11 +89,8 @@ class Descent {
     };
     out.l = solve(ha, hb, hc);
     if (std::isnan(out.l[0])) out.l = solve(a, b, c);
-    if (std::isnan(out.l[0])) {  // parallel tangents: steepest descent
-      const double size = a + c;
-      if (!(size > 0)) return false;
-      out.l = {(g1 + g2) / size, -g1 / size, -g2 / size};
-    }
+    if (std::isnan(out.l[0]))  // parallel tangents: steepest descent
+      out.l = {(g1 + g2) / (a + c), -g1 / (a + c), -g2 / (a + c)};
     for (int k = 0; k < chart_.corners(); ++k) {
       if (chart_.height(k, at_.l) != 0 || chart_.slope(k, out.l) >= 0 || domain_.goes_on(at_.face, k))
         continue;
@@ -178,14 +172,6 @@ class Descent {
   bool pattern_is_minimal_ = false;
 };
 
-// Descends from `start` to a local minimum of |s - p|.
-// `scale`: the size of the mesh, which says what counts as rounding. `quickly`: by Newton's iteration alone.
-Minimum descend(const LimitSurface& surface, const Vector& p, const FacePoint& start, double scale,
-                bool quickly = false) {
-  Descent descent(surface, p, start, scale);
-  return quickly ? descent.run_quickly() : descent.run();
-}
-
 constexpr int kCuts = 12;  // as dear as one descent, about
 
 // Of the pieces of the surface, not of the flat triangles.
@@ -246,7 +232,7 @@ Piece ClosestPoint::nearest_flat(const Vector& p, OnTriangle& flat) const {
 double ClosestPoint::at_most(const Vector& p) const {
   OnTriangle flat;
   const Piece piece = nearest_flat(p, flat);
-  double least = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true).distance;
+  double least = Descent(surface_, p, piece.parameter(flat.weight), diagonal_).run(true).distance;
   for (const Vector& corner : piece.corner) least = std::min(least, norm(p - corner));
   return least;
 }
@@ -255,7 +241,7 @@ std::optional<Foot> ClosestPoint::on_surface(const Vector& p, double within) con
   OnTriangle flat;
   const Piece piece = nearest_flat(p, flat);
   if (flat.distance > within + piece.deviation) return std::nullopt;
-  const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, true);
+  const Minimum found = Descent(surface_, p, piece.parameter(flat.weight), diagonal_).run(true);
   // Next to an extraordinary vertex Newton's iteration may end nearby; the vertex itself is on the surface.
   for (int k = 0; k < 3; ++k)
     if (const double d = norm(p - piece.corner[k]);
@@ -294,7 +280,8 @@ Foot ClosestPoint::closest(const Vector& p, double enough) const {
     if (descents++ < 256) {
       // Where Newton's iteration fails, the slow search is for the first minimum: others that it alone would
       // find lie at kinks of the surface, which corners of pieces show too.
-      const Minimum found = descend(surface_, p, piece.parameter(flat.weight), diagonal_, best.stationary);
+      const Minimum found =
+          Descent(surface_, p, piece.parameter(flat.weight), diagonal_).run(best.stationary);
       if (found.distance < best.distance || (found.stationary && found.distance <= best.distance + rounding))
         best = found;
     }

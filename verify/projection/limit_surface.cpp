@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
-#include "reference/mesh/sharpness.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/projection/cut_mesh.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -19,11 +18,6 @@ constexpr int kLevels = 14;
 
 using reference::Topology;
 using Points = std::vector<reference::Vec3<double>>;
-
-struct Part {
-  Points positions;
-  data::Faces faces;
-};
 
 // Some faces of a mesh, turned so that they begin at vertex 0 if they have it, and all faces that touch one of
 // their corners. Vertex `centre` becomes vertex 0.
@@ -36,21 +30,11 @@ Part around(const Topology& topology, const Points& positions, std::int32_t cent
       if (v != centre)
         for (const std::int32_t near : topology.sector(v).faces)
           if (known.insert(near).second) faces.push_back(near);
-  Part part;
-  std::unordered_map<std::int32_t, std::int32_t> number{{centre, 0}};
-  part.positions.push_back(positions[centre]);
-  std::vector<std::int32_t> corners;
-  for (const std::int32_t f : faces) {
-    const auto face = topology.faces()[f];
-    corners.assign(face.begin(), face.end());
-    for (std::int32_t& v : corners) {
-      const auto [at, is_new] = number.try_emplace(v, static_cast<std::int32_t>(part.positions.size()));
-      if (is_new) part.positions.push_back(positions[v]);
-      v = at->second;
-    }
+  Part part(topology, positions, centre, faces);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::span<std::int32_t> corners = part.faces[f];
     if (const auto at = std::find(corners.begin(), corners.end(), 0); at != corners.end())
       std::rotate(corners.begin(), at, corners.end());
-    part.faces.push_back(corners);
   }
   return part;
 }
@@ -72,12 +56,11 @@ struct FromCorner {
 };
 FromCorner from_corner(data::Scheme scheme, int corner, const Chart::Affine& l) {
   const double u = l[1], v = l[2];
+  if (corner == 0) return {u, v, {1, 0}, {0, 1}};
   if (scheme == data::Scheme::kLoop) {
-    if (corner == 0) return {u, v, {1, 0}, {0, 1}};
     if (corner == 1) return {v, std::max(0., l[0]), {0, 1}, {-1, -1}};
     return {std::max(0., l[0]), u, {-1, -1}, {1, 0}};
   }
-  if (corner == 0) return {u, v, {1, 0}, {0, 1}};
   if (corner == 1) return {v, 1 - u, {0, 1}, {-1, 0}};
   if (corner == 2) return {1 - u, 1 - v, {-1, 0}, {0, -1}};
   return {1 - v, u, {0, -1}, {1, 0}};
@@ -98,58 +81,81 @@ std::vector<std::int32_t> faces_of_corners(const data::ControlMesh& mesh) {
 
 }  // namespace
 
-HighValenceVertex::HighValenceVertex(const data::ControlMesh& mesh, const Topology& topology,
-                                     data::Scheme scheme, std::int32_t vertex)
-    : scheme_(scheme) {
-  const auto sector = topology.sector(vertex).faces;
-  faces_.assign(sector.begin(), sector.end());
-  std::sort(faces_.begin(), faces_.end());
-  Points positions;
-  for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
-  Part part = around(topology, positions, vertex, faces_);
-  levels_.reserve(kLevels);
-  for (int level = 0; level < kLevels; ++level) {
-    end_if_interrupted();
-    if (scheme == data::Scheme::kLoop)
-      part = step(reference::RefinedMesh<double>(part.positions, data::Triangles(part.faces).to_vector()),
-                  faces_.size());
-    else
-      part = step(reference::catmull_clark::RefinedMesh<double>(part.faces, part.positions), faces_.size());
-    Level& its = levels_.emplace_back();
-    for (const auto& p : part.positions) its.mesh.positions.push_back(vector_of(p));
-    its.mesh.faces = part.faces;
-    its.surface = std::make_unique<reference::Surface>(its.mesh, scheme);
+/// The limit surface near a vertex of very many faces, in a time that does not grow with their number.
+///
+/// Stam's method sums over as many modes as the vertex has faces, for each point near it. But the mesh around
+/// the vertex after j steps has the same surface, and on its faces at the vertex Stam's method takes the
+/// points of the outer three quarters from polynomials. So a point is evaluated on the mesh after the steps
+/// that bring it there; positions differ from Stam's by the rounding of these steps.
+class HighValenceVertex {
+ public:
+  /// Of a mesh without sharp edges. O(faces at the vertex) steps, and what the evaluator costs, for each level.
+  HighValenceVertex(const data::ControlMesh& mesh, const Topology& topology, data::Scheme scheme,
+                    std::int32_t vertex)
+      : scheme_(scheme) {
+    const auto sector = topology.sector(vertex).faces;
+    faces_.assign(sector.begin(), sector.end());
+    std::sort(faces_.begin(), faces_.end());
+    Points positions;
+    for (const auto& p : mesh.positions) positions.push_back({p[0], p[1], p[2]});
+    Part part = around(topology, positions, vertex, faces_);
+    levels_.reserve(kLevels);
+    for (int level = 0; level < kLevels; ++level) {
+      end_if_interrupted();
+      if (scheme == data::Scheme::kLoop)
+        part = step(reference::RefinedMesh<double>(part.positions, data::Triangles(part.faces).to_vector()),
+                    faces_.size());
+      else
+        part = step(reference::catmull_clark::RefinedMesh<double>(part.faces, part.positions), faces_.size());
+      Level& its = levels_.emplace_back();
+      for (const auto& p : part.positions) its.mesh.positions.push_back(vector_of(p));
+      its.mesh.faces = part.faces;
+      its.surface = std::make_unique<reference::Surface>(its.mesh, scheme);
+    }
   }
-}
 
-std::optional<reference::SurfacePoint<double>> HighValenceVertex::evaluate(std::int32_t face, int corner,
-                                                                           const Chart::Affine& at,
-                                                                           reference::Order order) const {
-  const FromCorner p = from_corner(scheme_, corner, at);
-  // How often the distance from the corner, measured as the schemes do, is to be doubled to exceed 1/2.
-  const double far = scheme_ == data::Scheme::kLoop ? p.x + p.y : std::max(p.x, p.y);
-  if (!(far > 0) || far > .5) return std::nullopt;
-  int exponent = 0;
-  const double mantissa = std::frexp(far, &exponent);
-  const int steps = mantissa == .5 ? 1 - exponent : -exponent;
-  if (steps < 1 || steps > kLevels) return std::nullopt;
-  double x = std::ldexp(p.x, steps), y = std::ldexp(p.y, steps);
-  if (scheme_ == data::Scheme::kLoop && y > 1 - x) (x > y ? y : x) = 1 - (x > y ? x : y);
-  const auto which = std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin();
-  const auto& surface = *levels_[static_cast<std::size_t>(steps - 1)].surface;
-  auto s = surface.evaluate(static_cast<int>(which), 0, x, y, order);
-  reference::scale_derivatives(s, std::ldexp(1.0, steps));
-  const auto turned = s;
-  const auto [a1, a2] = p.a;
-  const auto [b1, b2] = p.b;
-  s.d1 = turned.d1 * a1 + turned.d2 * b1;
-  s.d2 = turned.d1 * a2 + turned.d2 * b2;
-  s.t1 = s.d1, s.t2 = s.d2;
-  s.d11 = turned.d11 * (a1 * a1) + turned.d12 * (2 * a1 * b1) + turned.d22 * (b1 * b1);
-  s.d12 = turned.d11 * (a1 * a2) + turned.d12 * (a1 * b2 + a2 * b1) + turned.d22 * (b1 * b2);
-  s.d22 = turned.d11 * (a2 * a2) + turned.d12 * (2 * a2 * b2) + turned.d22 * (b2 * b2);
-  return s;
-}
+  /// At a point of a face at the vertex, with the derivatives by the second and third coordinate of `at`.
+  ///   corner   of the face that is the vertex
+  /// Nothing where the mesh itself has polynomials, and very near the vertex.
+  std::optional<reference::SurfacePoint<double>> evaluate(std::int32_t face, int corner,
+                                                          const Chart::Affine& at,
+                                                          reference::Order order) const {
+    const FromCorner p = from_corner(scheme_, corner, at);
+    // How often the distance from the corner, measured as the schemes do, is to be doubled to exceed 1/2.
+    const double far = scheme_ == data::Scheme::kLoop ? p.x + p.y : std::max(p.x, p.y);
+    if (!(far > 0) || far > .5) return std::nullopt;
+    int exponent = 0;
+    const double mantissa = std::frexp(far, &exponent);
+    const int steps = mantissa == .5 ? 1 - exponent : -exponent;
+    if (steps < 1 || steps > kLevels) return std::nullopt;
+    double x = std::ldexp(p.x, steps), y = std::ldexp(p.y, steps);
+    if (scheme_ == data::Scheme::kLoop && y > 1 - x) (x > y ? y : x) = 1 - (x > y ? x : y);
+    const auto which = std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin();
+    const auto& surface = *levels_[static_cast<std::size_t>(steps - 1)].surface;
+    auto s = surface.evaluate(static_cast<int>(which), 0, x, y, order);
+    reference::scale_derivatives(s, std::ldexp(1.0, steps));
+    const auto turned = s;
+    const auto [a1, a2] = p.a;
+    const auto [b1, b2] = p.b;
+    s.d1 = turned.d1 * a1 + turned.d2 * b1;
+    s.d2 = turned.d1 * a2 + turned.d2 * b2;
+    s.t1 = s.d1, s.t2 = s.d2;
+    s.d11 = turned.d11 * (a1 * a1) + turned.d12 * (2 * a1 * b1) + turned.d22 * (b1 * b1);
+    s.d12 = turned.d11 * (a1 * a2) + turned.d12 * (a1 * b2 + a2 * b1) + turned.d22 * (b1 * b2);
+    s.d22 = turned.d11 * (a2 * a2) + turned.d12 * (2 * a2 * b2) + turned.d22 * (b2 * b2);
+    return s;
+  }
+
+ private:
+  struct Level {
+    data::ControlMesh mesh;
+    std::unique_ptr<reference::Surface> surface;
+  };
+
+  data::Scheme scheme_;
+  std::vector<std::int32_t> faces_;  // at the vertex, ascending; they are the first of each level's, in order
+  std::vector<Level> levels_;        // after 1, 2 .. steps
+};
 
 std::unique_ptr<const LimitSurface::Refined> LimitSurface::refined_once(const data::ControlMesh& mesh,
                                                                         data::Scheme scheme) {
@@ -186,25 +192,24 @@ LimitSurface::LimitSurface(const data::ControlMesh& mesh, data::Scheme scheme)
 void LimitSurface::look_for_high_valences() {
   constexpr std::size_t kMany = 40;
   if (!tags().empty()) return;
-  const auto vertices = static_cast<std::int32_t>(mesh().positions.size());
-  std::vector<std::int32_t> many;
-  for (std::int32_t v = 0; v < vertices; ++v)
-    if (domain_.faces_at(v).size() > kMany) many.push_back(v);
-  if (many.empty()) return;
-  high_valence_of_.assign(mesh().positions.size(), -1);
-  const reference::Topology topology(mesh().positions.size(), mesh().faces);
-  for (const std::int32_t v : many) {
-    high_valence_of_[v] = static_cast<std::int32_t>(high_valence_.size());
-    high_valence_.push_back(std::make_unique<const HighValenceVertex>(mesh(), topology, scheme_, v));
+  std::optional<Topology> topology;
+  for (std::size_t v = 0; v < mesh().positions.size(); ++v) {
+    const auto vertex = static_cast<std::int32_t>(v);
+    if (domain_.faces_at(vertex).size() <= kMany) continue;
+    if (!topology) {
+      topology.emplace(mesh().positions.size(), mesh().faces);
+      high_valence_.resize(mesh().positions.size());
+    }
+    high_valence_[v] = std::make_shared<const HighValenceVertex>(mesh(), *topology, scheme_, vertex);
   }
 }
 
 std::optional<reference::SurfacePoint<double>> LimitSurface::near_high_valence(const FacePoint& at,
                                                                                reference::Order order) const {
-  if (high_valence_of_.empty()) return std::nullopt;
+  if (high_valence_.empty()) return std::nullopt;
   for (int k = 0; k < domain_.chart().corners(); ++k)
-    if (const std::int32_t which = high_valence_of_[domain_.vertex(at.face, k)]; which >= 0)
-      if (auto point = high_valence_[which]->evaluate(at.face, k, at.l, order)) return point;
+    if (const auto& its = high_valence_[domain_.vertex(at.face, k)])
+      if (auto point = its->evaluate(at.face, k, at.l, order)) return point;
   return std::nullopt;
 }
 

@@ -17,35 +17,7 @@
 
 namespace limitcheck::verify {
 
-/// The limit surface near a vertex of very many faces, in a time that does not grow with their number.
-///
-/// Stam's method sums over as many modes as the vertex has faces, for each point near it. But the mesh around
-/// the vertex after j steps has the same surface, and on its faces at the vertex Stam's method takes the
-/// points of the outer three quarters from polynomials. So a point is evaluated on the mesh after the steps
-/// that bring it there; positions differ from Stam's by the rounding of these steps.
-class HighValenceVertex {
- public:
-  /// Of a mesh without sharp edges. O(faces at the vertex) steps, and what the evaluator costs, for each level.
-  HighValenceVertex(const data::ControlMesh& mesh, const reference::Topology& topology, data::Scheme scheme,
-                    std::int32_t vertex);
-
-  /// At a point of a face at the vertex, with the derivatives by the second and third coordinate of `at`.
-  ///   corner   of the face that is the vertex
-  /// Nothing where the mesh itself has polynomials, and very near the vertex.
-  std::optional<reference::SurfacePoint<double>> evaluate(std::int32_t face, int corner,
-                                                          const Chart::Affine& at,
-                                                          reference::Order order) const;
-
- private:
-  struct Level {
-    data::ControlMesh mesh;
-    std::unique_ptr<reference::Surface> surface;
-  };
-
-  data::Scheme scheme_;
-  std::vector<std::int32_t> faces_;  // at the vertex, ascending; they are the first of each level's, in order
-  std::vector<Level> levels_;        // after 1, 2 .. steps
-};
+class HighValenceVertex;
 
 /// The faces of the domain are
 ///   of Loop's scheme         the control mesh's triangles
@@ -119,9 +91,8 @@ class LimitSurface {
   std::vector<bool> hole_;                  // of each control face; empty if there is none
   Domain domain_;
   reference::Surface surface_;
-  std::vector<std::unique_ptr<const HighValenceVertex>> high_valence_;
-  std::vector<std::int32_t>
-      high_valence_of_;  // of each vertex of mesh(), -1: none; empty if no vertex has one
+  std::vector<std::shared_ptr<const HighValenceVertex>>
+      high_valence_;  // of each vertex of mesh(), if it is one; empty if none is
 };
 
 }  // namespace limitcheck::verify

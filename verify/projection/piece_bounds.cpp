@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
 
 #include "reference/catmull_clark/refined_mesh.h"
@@ -98,9 +97,7 @@ bool gather(const Topology& topology, std::span<const Point> positions, const Qu
 
 // A vertex (number 0) with the faces around it and around all vertices of these, refined again and
 // again on the spot.
-struct Surroundings {
-  std::vector<reference::Vec3<double>> positions;
-  data::Faces faces;
+struct Surroundings : Part {
   reference::SharpTags tags;
 };
 
@@ -127,21 +124,9 @@ Surroundings surroundings(const Topology& topology, Points positions, std::int32
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
 
-  Surroundings s;
-  std::unordered_map<std::int32_t, std::int32_t> number{{vertex, 0}};
-  s.positions.push_back(positions[vertex]);
-  std::vector<std::int32_t> corners;
-  for (const std::int32_t f : faces) {
-    const auto face = topology.faces()[static_cast<std::size_t>(f)];
-    corners.assign(face.begin(), face.end());
-    for (std::int32_t& v : corners) {
-      const auto [it, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
-      if (is_new) s.positions.push_back(positions[v]);
-      v = it->second;
-    }
-    s.faces.push_back(corners);
-    if (sharp.sharpness != nullptr) add_lasting_edges(s.tags, topology, *sharp.sharpness, f, corners);
-  }
+  Surroundings s{{topology, positions, vertex, faces}, {}};
+  for (std::size_t k = 0; k < faces.size() && sharp.sharpness != nullptr; ++k)
+    add_lasting_edges(s.tags, topology, *sharp.sharpness, faces[k], s.faces[k]);
   if (sharp.held) s.tags.vertices.push_back({0, 10.0});
   return s;
 }

@@ -86,9 +86,7 @@ struct SharpPieces {
 
 // A quad of a face's lattice, its corners from the one at which its diagonal begins: the one nearest to a corner of
 // the face.
-struct QuadCell {
-  std::array<std::array<int, 2>, 4> corner;
-};
+using QuadCell = std::array<std::array<int, 2>, 4>;
 
 // Of the i-th column and the j-th row of n.
 QuadCell cell(int i, int j, int n) {
@@ -98,7 +96,7 @@ QuadCell cell(int i, int j, int n) {
   QuadCell c;
   for (int k = 0; k < 4; ++k) {
     const auto& [x, y] = kCorner[(nearest + k) % 4];
-    c.corner[k] = {i + x, j + y};
+    c[k] = {i + x, j + y};
   }
   return c;
 }
@@ -106,25 +104,20 @@ QuadCell cell(int i, int j, int n) {
 // The corners of its two triangles.
 constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
 
-// The quad of the cut mesh that is a given one of the mesh, corner by corner. The third corner has few faces.
-template <class Corners>
-struct CutFace {
-  std::int32_t face;
-  Corners corners;
-};
-CutFace<Quad> cut_face(const SharpPieces& sharp, std::size_t, const Quad& quad) {
+// The face of the cut mesh that is a given one of the mesh, and its corners. The third corner of a quad has few faces.
+std::pair<std::int32_t, Quad> cut_face(const SharpPieces& sharp, std::size_t, const Quad& quad) {
   for (const std::int32_t f : sharp.topology.sector(quad[2]).faces) {
     const auto whole = sharp.topology.faces()[f], cut = sharp.cut.topology.faces()[f];
     const auto at = std::find(whole.begin(), whole.end(), quad[0]) - whole.begin();
     if (at == 4 || whole[(at + 2) % 4] != quad[2]) continue;
-    CutFace<Quad> found{f, {}};
-    for (std::size_t k = 0; k < 4; ++k) found.corners[k] = cut[(static_cast<std::size_t>(at) + k) % 4];
-    return found;
+    Quad corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = cut[(static_cast<std::size_t>(at) + k) % 4];
+    return {f, corners};
   }
   throw std::logic_error("a quad of the lattice is no face of the refined mesh");
 }
-CutFace<reference::Triangle> cut_face(const SharpPieces& sharp, std::size_t face,
-                                      const reference::Triangle&) {
+std::pair<std::int32_t, reference::Triangle> cut_face(const SharpPieces& sharp, std::size_t face,
+                                                      const reference::Triangle&) {
   return {static_cast<std::int32_t>(face), reference::triangle_of(sharp.cut.topology, face)};
 }
 
@@ -156,8 +149,7 @@ SurfaceLattice::SurfaceLattice(const data::ControlMesh& mesh, int depth, const r
       const auto within = static_cast<int>(c & ((std::size_t{1} << (2 * depth_)) - 1));
       const QuadCell at = cell(within % n, within / n, n);
       Quad quad{};
-      for (std::size_t k = 0; k < 4; ++k)
-        quad[k] = refined.vertex(c >> (2 * depth_), 0, at.corner[k][0], at.corner[k][1]);
+      for (std::size_t k = 0; k < 4; ++k) quad[k] = refined.vertex(c >> (2 * depth_), 0, at[k][0], at[k][1]);
       return quad;
     });
   } else {
@@ -212,8 +204,8 @@ void SurfaceLattice::subdivide(const data::ControlMesh& mesh, Refined& refined,
       bound.size = regular_bound(topology, refined.positions(), corners).value();
     } else {
       const auto cut = cut_face(*sharp, c, corners);
-      bound = sharp->bound(static_cast<std::size_t>(cut.face), [&](const CutMesh& whole) {
-        return regular_bound(whole.topology, whole.positions, cut.corners, whole.states);
+      bound = sharp->bound(static_cast<std::size_t>(cut.first), [&](const CutMesh& whole) {
+        return regular_bound(whole.topology, whole.positions, cut.second, whole.states);
       });
     }
     for (std::size_t half = 0; half < kEach; ++half) {
@@ -224,10 +216,6 @@ void SurfaceLattice::subdivide(const data::ControlMesh& mesh, Refined& refined,
       if (bound.rough) rough_[t] = 1;
     }
   });
-}
-
-double SurfaceLattice::largest_deviation() const {
-  return *std::max_element(deviation_.begin(), deviation_.end());
 }
 
 FacePoint Piece::parameter(const std::array<double, 3>& weight) const {
@@ -257,7 +245,7 @@ Piece SurfaceLattice::piece(std::size_t index) const {
     const QuadCell its =
         cell(static_cast<int>(within_face % n), static_cast<int>(within_face / n), static_cast<int>(n));
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto& [i, j] = its.corner[kHalves[index % 2][k]];
+      const auto& [i, j] = its[kHalves[index % 2][k]];
       p.at[k] = Chart::at(i * s, j * s);
     }
     return p;
@@ -281,30 +269,20 @@ Piece SurfaceLattice::piece(std::size_t index) const {
 }
 
 std::array<Piece, 4> SurfaceLattice::split(const Piece& piece, const LimitSurface& surface) const {
-  std::array<Chart::Affine, 3> at;  // middles of the edges 01, 12, 20
-  std::array<Vector, 3> point;
+  Piece inner = piece;  // between the middles of the edges 01, 12, 20
+  inner.irregular = -1, inner.steps = 0;
+  // Regular: second derivatives per edge fall to a quarter.
+  if (!piece.rough) inner.deviation /= 4;
   for (int k = 0; k < 3; ++k) {
-    at[k] = middle(piece.at[k], piece.at[(k + 1) % 3]);
-    point[k] = surface.position({piece.face, at[k]});
+    inner.at[k] = middle(piece.at[k], piece.at[(k + 1) % 3]);
+    inner.corner[k] = surface.position({piece.face, inner.at[k]});
   }
-  std::array<Piece, 4> child;
-  for (int k = 0; k < 3; ++k) {
-    child[k].at[k] = piece.at[k];
-    child[k].corner[k] = piece.corner[k];
-    for (const int other : {k, (k + 2) % 3}) {  // middles of the two edges at corner k
-      const int place = other == k ? (k + 1) % 3 : (k + 2) % 3;
-      child[k].at[place] = at[other];
-      child[k].corner[place] = point[other];
-    }
-  }
-  child[3].at = at;
-  child[3].corner = point;
-  for (Piece& c : child) {
-    c.chart = piece.chart;
-    c.face = piece.face;
-    c.rough = piece.rough;
-    // Regular: second derivatives per edge fall to a quarter.
-    c.deviation = piece.rough ? piece.deviation : piece.deviation / 4;
+  std::array<Piece, 4> child{inner, inner, inner, inner};
+  for (int k = 0; k < 3; ++k) {  // at corner k, with the middles of its two edges
+    const int next = (k + 1) % 3, before = (k + 2) % 3;
+    child[k].at[k] = piece.at[k], child[k].corner[k] = piece.corner[k];
+    child[k].at[next] = inner.at[k], child[k].corner[next] = inner.corner[k];
+    child[k].at[before] = inner.at[before], child[k].corner[before] = inner.corner[before];
   }
   if (piece.irregular < 0) return child;
   // Which corner is extraordinary: the one that is a corner of the face.

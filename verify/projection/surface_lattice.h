@@ -52,7 +52,6 @@ class SurfaceLattice {
   Piece piece(std::size_t index) const;
   std::array<Vector, 3> corners(std::size_t index) const;
   double deviation(std::size_t index) const { return deviation_[index]; }
-  double largest_deviation() const;
 
   /// The four sub-pieces: at the corners, in order, then the
   /// middle. Their corners come from the exact evaluator.

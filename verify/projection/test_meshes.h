@@ -2,6 +2,7 @@
 // Control meshes of either scheme, of all valences and boundaries, without and with sharp edges. For tests.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
+#include "verify/projection/surface_lattice.h"
 
 namespace limitcheck::verify::test {
 
@@ -36,6 +38,12 @@ inline std::vector<TestMesh> loop_meshes() {
   std::vector<std::string> names = data::stock_shapes();
   names.insert(names.end(), {"bumpy:20", "bumpy:200", "wheel:17", "fan:9"});
   return meshes_named(names);
+}
+
+inline double largest_deviation(const SurfaceLattice& lattice) {
+  double largest = 0;
+  for (std::size_t t = 0; t < lattice.size(); ++t) largest = std::max(largest, lattice.deviation(t));
+  return largest;
 }
 
 inline std::vector<TestMesh> quad_meshes() {

@@ -4,12 +4,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "data/bounding_box.h"
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "fast/stream/stream_tessellator.h"
@@ -31,13 +31,11 @@ constexpr double kNearlyProportional = 1.02;
 // near vertices of many faces, lambda < .655 [Stam 1998]; there are three coordinates.
 const double kTangentPlacing = std::sqrt(3.) * 6 * 0x1p-25;
 
-fast::IndexedMesh<float> tessellate(FloatKernel kernel, const data::ControlMesh& mesh, int depth) {
-  fast::TessellatorOptions options;
-  options.provenance = true;
-  options.scheme = data::natural_scheme(mesh);
+fast::IndexedMesh<float> tessellate(ProvedKernel kernel, const data::ControlMesh& mesh, int depth) {
+  const fast::TessellatorOptions options{.provenance = true, .scheme = data::natural_scheme(mesh)};
   const std::vector<std::int32_t> depths(mesh.faces.size(), depth);
   fast::IndexedMesh<float> out;
-  if (kernel == FloatKernel::kSlidingWindow)
+  if (kernel == ProvedKernel::kSlidingWindow)
     fast::Tessellator<float>(mesh, options).frame(depths, out);
   else
     fast::row_stream::StreamTessellator(mesh, options).frame(depths, out);
@@ -45,17 +43,11 @@ fast::IndexedMesh<float> tessellate(FloatKernel kernel, const data::ControlMesh&
 }
 
 double diagonal(const data::ControlMesh& mesh) {
-  double square = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    double low = mesh.positions.at(0)[c], high = low;
-    for (const auto& p : mesh.positions) {
-      if (static_cast<double>(static_cast<float>(p[c])) != p[c])
+  for (const auto& p : mesh.positions)
+    for (const double x : p)
+      if (static_cast<double>(static_cast<float>(x)) != x)
         throw data::ArgumentError("certified comparison: a coordinate is not a float");
-      low = std::min(low, p[c]), high = std::max(high, p[c]);
-    }
-    square += (high - low) * (high - low);
-  }
-  return std::sqrt(square) / kUpward;
+  return data::box_diagonal(mesh) / kUpward;
 }
 
 struct Read {
@@ -76,11 +68,10 @@ fast::Vec3<double> middle(const reference::Enclosure3& e) {
 
 // Upper bound of the distance of a float vector from an enclosure.
 double distance(const reference::Enclosure3& exact, const fast::Vec3<float>& found, double& radius) {
-  const std::array<float, 3> x{found.x, found.y, found.z};
   double square = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     const Read e = read(exact[c]);
-    const double difference = std::abs(static_cast<double>(x[c]) - e.value) * kUpward + e.radius;
+    const double difference = std::abs(static_cast<double>(found[c]) - e.value) * kUpward + e.radius;
     square += difference * difference;
     radius = std::max(radius, e.radius);
   }
@@ -89,7 +80,7 @@ double distance(const reference::Enclosure3& exact, const fast::Vec3<float>& fou
 
 }  // namespace
 
-CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& mesh, int depth, int points,
+CertifiedErrors compare_certified(ProvedKernel kernel, const data::ControlMesh& mesh, int depth, int points,
                                   int digits) {
   const double box = diagonal(mesh);
   const auto tessellation = tessellate(kernel, mesh, depth);
@@ -140,7 +131,7 @@ double ProvedBounds::normal_of(const CertifiedErrors& errors) const {
   return sine < 1 ? (std::asin(sine) + 0x1p-23) * 180 / std::numbers::pi : 180;
 }
 
-std::vector<CertifiedLine> stock_shape_lines(const std::vector<FloatKernel>& kernels, int depth,
+std::vector<CertifiedLine> stock_shape_lines(const std::vector<ProvedKernel>& kernels, int depth,
                                              data::Scheme scheme) {
   const std::vector<std::string> quads{"quad-cube",    "quad-torus",    "quad-wheel:3", "quad-wheel:5",
                                        "quad-wheel:8", "quad-wheel:50", "quad-fan:1",   "quad-fan:2",
@@ -148,18 +139,15 @@ std::vector<CertifiedLine> stock_shape_lines(const std::vector<FloatKernel>& ker
                                        "mixed:1:60",   "creased-cube",  "crease-ring"};
   std::vector<CertifiedLine> lines;
   for (const std::string& name : scheme == data::Scheme::kLoop ? data::stock_shapes() : quads)
-    for (const FloatKernel kernel : kernels)
-      lines.push_back(
-          {name, kernel == FloatKernel::kSlidingWindow ? "sliding-window" : "row-stream", depth, {}});
+    for (const ProvedKernel kernel : kernels) lines.push_back({name, name_of(kernel), depth, {}});
   return lines;
 }
 
 void certify(std::vector<CertifiedLine>& lines, int points) {
   tbb::parallel_for(std::size_t{0}, lines.size(), [&](std::size_t k) {
     CertifiedLine& line = lines[k];
-    const auto kernel =
-        line.kernel == "sliding-window" ? FloatKernel::kSlidingWindow : FloatKernel::kRowStream;
-    line.errors = compare_certified(kernel, data::named_mesh(line.mesh), line.depth, points);
+    line.errors =
+        compare_certified(kernel_named(line.kernel), data::named_mesh(line.mesh), line.depth, points);
   });
 }
 

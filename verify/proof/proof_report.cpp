@@ -198,28 +198,22 @@ std::string ProofReport::table(bool each) const {
       const std::string name = each ? row.topology : group;
       const auto [at, fresh] = index.emplace(
           fmt::format("{}/{}/{}/{}", group, name, row.kernel, row.map.arithmetic), lines.size());
-      if (fresh) {
-        lines.emplace_back();
-        lines.back().group = name;
-        lines.back().kernel = row.kernel;
-        lines.back().arithmetic = row.map.arithmetic;
-      }
+      if (fresh) lines.push_back({name, row.kernel, row.map.arithmetic});
       lines[at->second].add(row);
       points += row.points;
       seconds += row.seconds;
-      if (row.bound) overall.add(row);
-      if (row.bound && row.bound->share > 1)
-        failures += fmt::format("EXCEEDED {} {} {}: an error of {:.3f} times its bound\n", group,
-                                row.topology, row.kernel, row.bound->share);
-      if (row.bound && !row.bound->alike)
-        failures += fmt::format("UNLIKE   {} {} {}: x, y and z are not rounded alike\n", group, row.topology,
-                                row.kernel);
-      if (row.bound && !row.bound->shipped.held())
-        failures += fmt::format("SHIPPED  {} {} {}: {}\n", group, row.topology, row.kernel,
-                                describe(row.bound->shipped));
-      if (row.map.witness)
-        failures += fmt::format("DIFFERS  {} {} {}\n         {}\n", group, row.topology, row.kernel,
-                                describe(*row.map.witness));
+      const auto fail = [&](const char* what, const std::string& how) {
+        failures += fmt::format("{:<8} {} {} {}{}\n", what, group, row.topology, row.kernel, how);
+      };
+      if (row.bound) {
+        overall.add(row);
+        const BoundProof& bound = *row.bound;
+        if (bound.share > 1)
+          fail("EXCEEDED", fmt::format(": an error of {:.3f} times its bound", bound.share));
+        if (!bound.alike) fail("UNLIKE", ": x, y and z are not rounded alike");
+        if (!bound.shipped.held()) fail("SHIPPED", ": " + describe(bound.shipped));
+      }
+      if (row.map.witness) fail("DIFFERS", "\n         " + describe(*row.map.witness));
     }
   }
   for (const CertifiedLine& line : certified_) {
@@ -267,21 +261,23 @@ std::string ProofReport::table(bool each) const {
                         rows_.size());
   if (has_all_rows() && !complete())
     text += "STOPPED: not all stock shapes were compared with the true surface; nothing is said of it.\n";
-  if (overall.bound)
+  if (overall.bound) {
+    const BoundProof& bound = *overall.bound;
     text += fmt::format(
         "For every control mesh of these topologies in the unit box, at the depths beside the bound, float x "
         "coordinates are right to {:.2e}; the worst error found is {:.2e}. Where y and z have the values of "
         "x they get the bits of x.\n",
-        overall.bound->position_bound, overall.bound->position_worst);
-  if (overall.bound)
+        bound.position_bound, bound.position_worst);
+    const ShippedProof& shipped = bound.shipped;
     text += fmt::format(
         "As they ship, with unit normals, the kernels reach {:.2f} of the bound of a position and {:.2f} of "
         "a "
         "normal's{}.\n",
-        overall.bound->shipped.position_share, overall.bound->shipped.normal_share,
-        overall.bound->shipped.targets.empty() || !overall.bound->shipped.unlike.empty()
+        shipped.position_share, shipped.normal_share,
+        shipped.targets.empty() || !shipped.unlike.empty()
             ? ""
-            : fmt::format("; row streaming has the same bits on {}", overall.bound->shipped.targets));
+            : fmt::format("; row streaming has the same bits on {}", shipped.targets));
+  }
   for (const char* kernel : {"sliding-window", "row-stream"}) {
     const CertifiedLine* worst = nullptr;
     std::int64_t looked_at = 0;
@@ -302,10 +298,11 @@ std::string ProofReport::table(bool each) const {
 }
 
 std::string ProofReport::json() const {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  using Ordered = nlohmann::ordered_json;
+  Ordered rows = Ordered::array();
   for (std::size_t t = 0; t < rows_.size(); ++t) {
     for (const ProofRow& row : rows_[t]) {
-      nlohmann::ordered_json j;
+      Ordered j;
       j["group"] = set_.tasks[t].group;
       j["topology"] = row.topology;
       j["kernel"] = row.kernel;
@@ -314,7 +311,7 @@ std::string ProofReport::json() const {
       j["seconds"] = row.seconds;
       j["map"] = row.map.equal ? "equal" : "differs";
       j["arithmetic"] = row.map.arithmetic;
-      j["digits"] = std::isfinite(row.map.digits) ? nlohmann::ordered_json(row.map.digits) : nullptr;
+      j["digits"] = std::isfinite(row.map.digits) ? Ordered(row.map.digits) : nullptr;
       if (row.map.witness) {
         const MapWitness& w = *row.map.witness;
         j["witness"] = {{"point", w.point},
@@ -324,18 +321,19 @@ std::string ProofReport::json() const {
                         {"expected", w.expected}};
       }
       if (row.bound) {
-        j["bound"] = row.bound->position_bound;
-        j["worst"] = row.bound->position_worst;
-        j["tangent_bound"] = row.bound->tangent_bound;
-        j["tangent_worst"] = row.bound->tangent_worst;
-        j["normal_bound"] = row.bound->normal_bound;
-        j["bound_depths"] = {row.bound->first_depth, row.bound->last_depth};
-        j["worst_share"] = row.bound->share;
-        j["product_bound"] = row.bound->product_bound;
-        j["shipped_position_share"] = row.bound->shipped.position_share;
-        j["shipped_normal_share"] = row.bound->shipped.normal_share;
-        j["targets"] = row.bound->shipped.targets;
-        j["unlike"] = row.bound->shipped.unlike;
+        const BoundProof& bound = *row.bound;
+        j.update({{"bound", bound.position_bound},
+                  {"worst", bound.position_worst},
+                  {"tangent_bound", bound.tangent_bound},
+                  {"tangent_worst", bound.tangent_worst},
+                  {"normal_bound", bound.normal_bound},
+                  {"bound_depths", {bound.first_depth, bound.last_depth}},
+                  {"worst_share", bound.share},
+                  {"product_bound", bound.product_bound},
+                  {"shipped_position_share", bound.shipped.position_share},
+                  {"shipped_normal_share", bound.shipped.normal_share},
+                  {"targets", bound.shipped.targets},
+                  {"unlike", bound.shipped.unlike}});
       }
       if (row.cost) {
         j["flops_per_point"] = row.cost->flops;
@@ -344,10 +342,9 @@ std::string ProofReport::json() const {
       rows.push_back(std::move(j));
     }
   }
-  nlohmann::ordered_json certified = nlohmann::ordered_json::array();
+  Ordered certified = Ordered::array();
   for (const CertifiedLine& line : certified_) {
     const auto proved = proved_of(line);
-    using Ordered = nlohmann::ordered_json;
     certified.push_back({{"mesh", line.mesh},
                          {"kernel", line.kernel},
                          {"depth", line.depth},
@@ -357,10 +354,10 @@ std::string ProofReport::json() const {
                          {"position_bound", proved ? Ordered(proved->position_of(line.errors)) : Ordered()},
                          {"normal_bound", proved ? Ordered(proved->normal_of(line.errors)) : Ordered()}});
   }
-  const nlohmann::ordered_json document = {{"scheme", name_of(set_.scheme)}, {"held", held()},
-                                           {"complete", complete()},         {"rows", rows},
-                                           {"impossible", set_.impossible},  {"certified", certified}};
-  return document.dump(2);
+  return Ordered{{"scheme", name_of(set_.scheme)}, {"held", held()},
+                 {"complete", complete()},         {"rows", rows},
+                 {"impossible", set_.impossible},  {"certified", certified}}
+      .dump(2);
 }
 
 Json proof_rows_json(const std::vector<ProofRow>& rows) {

@@ -28,6 +28,11 @@ double estimated_seconds(const ProofTask& task) {
   const auto at = [](int depth) { return std::exp2(2. * depth); };
   const auto vertices = static_cast<double>(task.neighbourhood.mesh.positions.size());
   const MapOptions& o = task.options;
+  if (!task.neighbourhood.mesh.faces.are_triangles()) {
+    constexpr double kWeights[]{1.5e-4, 8e-6, 3e-4};  // in the order of Arithmetic
+    return 1e-3 + kWeights[static_cast<std::size_t>(o.arithmetic)] * vertices * at(o.last_depth) +
+           (task.bounds ? 4e-4 * at(task.bounds->last_depth) : 0);
+  }
   const double weight = o.arithmetic == Arithmetic::kResidues ? 2e-6 : 8e-5;
   double seconds = weight * vertices * at(o.last_depth);
   if (task.bounds) {
@@ -37,22 +42,14 @@ double estimated_seconds(const ProofTask& task) {
   }
   return seconds;
 }
-double estimated_seconds_of_quad(const ProofTask& task) {
-  constexpr double kWeights[]{1.5e-4, 8e-6, 3e-4};  // in the order of Arithmetic
-  const auto vertices = static_cast<double>(task.neighbourhood.mesh.positions.size());
-  const double points = std::exp2(2. * task.options.last_depth);
-  return 1e-3 + kWeights[static_cast<std::size_t>(task.options.arithmetic)] * vertices * points +
-         (task.bounds ? 4e-4 * std::exp2(2. * task.bounds->last_depth) : 0);
-}
 
 /// Collects the tasks of a scheme's set, no deeper than was asked for.
 struct TaskList {
   const ProofRequest& request;
-  double (*estimate)(const ProofTask&);
-  ProofSet set;
+  ProofSet set{};
 
   void add(const char* group, const std::vector<Neighbourhood>& topologies, Arithmetic arithmetic, int first,
-           int last, std::optional<BoundOptions> bounds) {
+           int last, std::optional<BoundOptions> bounds = {}) {
     MapOptions options{arithmetic, first, std::min(last, request.depth), request.sliding_window,
                        request.row_stream};
     if (options.last_depth < first) return;
@@ -60,7 +57,7 @@ struct TaskList {
     if (bounds && bounds->last_depth < bounds->first_depth) bounds.reset();
     for (const Neighbourhood& topology : topologies) {
       ProofTask task{group, topology, options, bounds, 0};
-      task.estimate = estimate(task);
+      task.estimate = estimated_seconds(task);
       set.tasks.push_back(std::move(task));
     }
   }
@@ -133,67 +130,6 @@ ProofSet sample_of(ProofRequest request) {
   return set;
 }
 
-ProofSet triangle_proof_set(const ProofRequest& request) {
-  const bool full = request.size == ProofSize::kFull;
-  TaskList list{request, estimated_seconds, {}};
-  ProofSet& set = list.set;
-  const auto add = [&](const char* group, const std::vector<Neighbourhood>& pairs, Arithmetic arithmetic,
-                       int first, int last, std::optional<BoundOptions> bounds = {}) {
-    list.add(group, pairs, arithmetic, first, last, bounds);
-  };
-  const int meshes = full ? 400 : 40;
-
-  const auto interior = triples(request.valences, set.impossible);
-  const auto once = each_triple_once(interior);
-  add("triples", interior, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, 4, meshes});
-  add("deep", once, Arithmetic::kResidues, 5, request.depth,
-      full ? std::optional(BoundOptions{5, 6, meshes}) : std::nullopt);
-  add("digits", full ? interior : once, Arithmetic::kDigits, 0, full ? 3 : 2);
-
-  std::vector<Neighbourhood> rational, high, boundary;
-  constexpr int kRational[] = {3, 4, 6};
-  for (const int a : kRational)
-    for (const int b : kRational)
-      for (const int c : kRational)
-        for (const int d : kRational)
-          if (auto pair = interior_pair({a, b, c, d})) rational.push_back(std::move(*pair));
-  add("rational", rational, Arithmetic::kExact, 0, full ? 5 : 2);
-
-  for (const int n : {20, 50, 100})
-    for (const auto& valences :
-         {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
-      high.push_back(*interior_pair(valences));
-  add("high", high, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
-  if (!full) std::erase_if(high, [](const Neighbourhood& pair) { return pair.mesh.positions.size() > 100; });
-  add("high", high, Arithmetic::kDigits, 0, full ? 3 : 1);
-
-  std::set<std::string> seen;
-  const auto add_boundary = [&](const std::array<int, 4>& valences) {
-    for (Neighbourhood& pair : boundary_pairs(valences))
-      if (seen.insert(pair.name).second) boundary.push_back(std::move(pair));
-  };
-  add_boundary({6, 6, 6, 6});
-  if (full) add("boundary-deep", boundary, Arithmetic::kResidues, 5, 6, BoundOptions{5, 6, meshes});
-  if (!full) add("boundary", boundary, Arithmetic::kDigits, 0, 1);
-  for (const auto& valences : {std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
-    add_boundary(valences);
-  add("boundary", boundary, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, meshes});
-  if (full) add("boundary", boundary, Arithmetic::kDigits, 0, 3);
-
-  const std::vector<Neighbourhood> alone{face_alone()};
-  add("alone", alone, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
-  add("alone", alone, Arithmetic::kDigits, 0, full ? 4 : 2);
-  add("alone", alone, Arithmetic::kExact, 0, full ? 6 : 3);
-
-  std::vector<Neighbourhood> spheres;
-  seen.clear();
-  for (const int faces : full ? std::vector{200, 800, 2000, 4000} : std::vector{200})
-    for (Neighbourhood& pair : pairs_of(data::bumpy_sphere(faces, 1)))
-      if (seen.insert(pair.name).second) spheres.push_back(std::move(pair));
-  add("spheres", spheres, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, 40});
-  return std::move(list.set);
-}
-
 using Valences = std::array<int, 4>;
 
 std::vector<Valences> quadruples(const std::vector<int>& valences) {
@@ -203,6 +139,60 @@ std::vector<Valences> quadruples(const std::vector<int>& valences) {
       for (const int c : valences)
         for (const int d : valences) all.push_back({a, b, c, d});
   return all;
+}
+
+/// Those whose names were not seen before.
+void add_new(std::vector<Neighbourhood>& to, std::vector<Neighbourhood> from, std::set<std::string>& seen) {
+  for (Neighbourhood& topology : from)
+    if (seen.insert(topology.name).second) to.push_back(std::move(topology));
+}
+
+ProofSet triangle_proof_set(const ProofRequest& request) {
+  const bool full = request.size == ProofSize::kFull;
+  TaskList list{request};
+  const int meshes = full ? 400 : 40;
+
+  const auto interior = triples(request.valences, list.set.impossible);
+  const auto once = each_triple_once(interior);
+  list.add("triples", interior, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, 4, meshes});
+  list.add("deep", once, Arithmetic::kResidues, 5, request.depth,
+           full ? std::optional(BoundOptions{5, 6, meshes}) : std::nullopt);
+  list.add("digits", full ? interior : once, Arithmetic::kDigits, 0, full ? 3 : 2);
+
+  std::vector<Neighbourhood> rational, high, boundary;
+  for (const Valences& v : quadruples({3, 4, 6}))
+    if (auto pair = interior_pair(v)) rational.push_back(std::move(*pair));
+  list.add("rational", rational, Arithmetic::kExact, 0, full ? 5 : 2);
+
+  for (const int n : {20, 50, 100})
+    for (const auto& valences :
+         {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
+      high.push_back(*interior_pair(valences));
+  list.add("high", high, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
+  if (!full) std::erase_if(high, [](const Neighbourhood& pair) { return pair.mesh.positions.size() > 100; });
+  list.add("high", high, Arithmetic::kDigits, 0, full ? 3 : 1);
+
+  std::set<std::string> seen;
+  add_new(boundary, boundary_pairs({6, 6, 6, 6}), seen);
+  if (full) list.add("boundary-deep", boundary, Arithmetic::kResidues, 5, 6, BoundOptions{5, 6, meshes});
+  if (!full) list.add("boundary", boundary, Arithmetic::kDigits, 0, 1);
+  for (const auto& valences : {std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
+    add_new(boundary, boundary_pairs(valences), seen);
+  list.add("boundary", boundary, Arithmetic::kResidues, 0, full ? 6 : 3,
+           BoundOptions{0, full ? 4 : 3, meshes});
+  if (full) list.add("boundary", boundary, Arithmetic::kDigits, 0, 3);
+
+  const std::vector<Neighbourhood> alone{face_alone()};
+  list.add("alone", alone, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
+  list.add("alone", alone, Arithmetic::kDigits, 0, full ? 4 : 2);
+  list.add("alone", alone, Arithmetic::kExact, 0, full ? 6 : 3);
+
+  std::vector<Neighbourhood> spheres;
+  seen.clear();
+  for (const int faces : full ? std::vector{200, 800, 2000, 4000} : std::vector{200})
+    add_new(spheres, pairs_of(data::bumpy_sphere(faces, 1)), seen);
+  list.add("spheres", spheres, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, 40});
+  return std::move(list.set);
 }
 
 Valences turned(const Valences& v, std::size_t by) {
@@ -229,7 +219,7 @@ std::vector<Neighbourhood> quads_of(const std::vector<Valences>& valences) {
 
 ProofSet quad_proof_set(const ProofRequest& request) {
   const bool full = request.size == ProofSize::kFull;
-  TaskList list{request, estimated_seconds_of_quad, {}};
+  TaskList list{request};
   const auto add = [&](const char* group, const std::vector<Neighbourhood>& quads, Arithmetic arithmetic,
                        int last, std::optional<BoundOptions> bounds = {}) {
     list.add(group, quads, arithmetic, 0, last, bounds);
@@ -264,14 +254,10 @@ ProofSet quad_proof_set(const ProofRequest& request) {
 
   std::vector<Neighbourhood> boundary, cuts, darts, semi_sharp;
   std::set<std::string> seen;
-  const auto add_new = [&](std::vector<Neighbourhood>& to, std::vector<Neighbourhood> quads) {
-    for (Neighbourhood& quad : quads)
-      if (seen.insert(quad.name).second) to.push_back(std::move(quad));
-  };
   for (const Valences& v : full
                                ? std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}, Valences{3, 3, 8, 5}}
                                : std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}})
-    add_new(boundary, boundary_quads(v));
+    add_new(boundary, boundary_quads(v), seen);
   add("boundary", boundary, Arithmetic::kResidues, full ? 5 : 3, BoundOptions{0, full ? 4 : 2, meshes});
   add("boundary", boundary, Arithmetic::kExact, full ? 3 : 1);
   add("boundary", boundary, Arithmetic::kDigits, full ? 2 : 0);
@@ -292,19 +278,17 @@ ProofSet quad_proof_set(const ProofRequest& request) {
 }
 
 std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& task) {
-  const auto* k =
-      std::ranges::find_if(kProvedKernels, [&](ProvedKernel one) { return kernel == name_of(one); });
-  if (k == kProvedKernels.end()) throw std::logic_error("no bounds for " + kernel);
+  const ProvedKernel k = kernel_named(kernel);
   const BoundOptions& o = *task.bounds;
-  if (*k != ProvedKernel::kCrackCentre)
-    return prove_bound(*k, task.neighbourhood, o.first_depth, o.last_depth, o.meshes);
+  if (k != ProvedKernel::kCrackCentre)
+    return prove_bound(k, task.neighbourhood, o.first_depth, o.last_depth, o.meshes);
   if (o.first_depth > 0) return std::nullopt;  // knows no depth
-  return prove_bound(*k, task.neighbourhood, 0, 0, o.meshes);
+  return prove_bound(k, task.neighbourhood, 0, 0, o.meshes);
 }
 
 std::optional<CostProof> cost_of(const std::string& kernel, const ProofTask& task) {
-  const bool window = kernel == name_of(ProvedKernel::kSlidingWindow);
-  if (!window && kernel != name_of(ProvedKernel::kRowStream)) return std::nullopt;
+  const bool window = kernel_named(kernel) == ProvedKernel::kSlidingWindow;
+  if (!window && kernel_named(kernel) != ProvedKernel::kRowStream) return std::nullopt;
   const data::ControlMesh& mesh = task.neighbourhood.mesh;
   if (mesh.faces.size() == 1 || !mesh.faces.are_triangles()) return std::nullopt;  // counted per pair
   const KernelCost cost = count_operations(window ? CountedKernel::kSlidingWindow : CountedKernel::kRowStream,
@@ -332,9 +316,9 @@ ProofSet proof_set(const ProofRequest& request) {
   ProofSet set =
       request.scheme == data::Scheme::kCatmullClark ? quad_proof_set(request) : triangle_proof_set(request);
   set.scheme = request.scheme;
-  std::vector<FloatKernel> kernels;
-  if (request.sliding_window) kernels.push_back(FloatKernel::kSlidingWindow);
-  if (request.row_stream) kernels.push_back(FloatKernel::kRowStream);
+  std::vector<ProvedKernel> kernels;
+  if (request.sliding_window) kernels.push_back(ProvedKernel::kSlidingWindow);
+  if (request.row_stream) kernels.push_back(ProvedKernel::kRowStream);
   set.certified = stock_shape_lines(kernels, std::min(request.depth, 4), request.scheme);
   return set;
 }

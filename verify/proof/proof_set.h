@@ -46,16 +46,14 @@ struct ProvedBounds {
   }
 };
 
-enum class FloatKernel : std::uint8_t { kSlidingWindow, kRowStream };
-
-/// Tessellates the mesh, of triangles by Loop's scheme and others by Catmull-Clark's, with the float kernel
-/// and compares about `points` of its lattice points, spread evenly over the output, with the exact limit:
+/// Tessellates the mesh, of triangles by Loop's scheme and others by Catmull-Clark's, with the float kernel, the sliding
+/// window or row streaming, and compares about `points` of its lattice points, spread evenly over the output, with the exact limit:
 /// Stam's evaluator in ball arithmetic at `digits` digits, the control points taken as the floats they are.
 /// Upper bounds: float to double is exact, a decimal is read to 2^-53 of itself, and radius and reading are
 /// added. Points without two derivatives that span a plane count for positions alone: their normals are made
 /// in double, and compared in the proofs of the topologies.
 ///   throws   data::ArgumentError: a coordinate that is no float
-CertifiedErrors compare_certified(FloatKernel kernel, const data::ControlMesh& mesh, int depth, int points,
+CertifiedErrors compare_certified(ProvedKernel kernel, const data::ControlMesh& mesh, int depth, int points,
                                   int digits = 20);
 
 /// One mesh, one kernel.
@@ -66,7 +64,7 @@ struct CertifiedLine {
 };
 
 /// The stock shapes of the audit, of Catmull-Clark's scheme a choice of its meshes: lines to be certified.
-std::vector<CertifiedLine> stock_shape_lines(const std::vector<FloatKernel>& kernels, int depth,
+std::vector<CertifiedLine> stock_shape_lines(const std::vector<ProvedKernel>& kernels, int depth,
                                              data::Scheme scheme = data::Scheme::kLoop);
 /// Fills in their errors, on all cores.
 void certify(std::vector<CertifiedLine>& lines, int points);

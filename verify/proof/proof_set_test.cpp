@@ -26,9 +26,6 @@ namespace {
 
 using Valences = std::array<int, 4>;
 
-ProofSet standard_set() {
-  return proof_set({});
-}
 const ProofSet& full_set() {
   static const ProofSet set = [] {
     ProofRequest request{.size = ProofSize::kFull};
@@ -54,22 +51,26 @@ Valences valences_of(const ProofTask& task) {
 // other two, which lie on the diagonal. A face with 3 3 n, n > 3, cannot be: 9 triples, each with the 3s on
 // the diagonal or one of them apart.
 TEST(Proof_Set, HoldsEveryTripleWithEachOfItsCornersApart) {
-  const ProofSet& set = full_set();
-  EXPECT_EQ(set.impossible.size(), 9U);
-  for (const char* group : {"triples", "deep"}) {
-    std::set<std::array<int, 3>> whole, apart;
-    for (const ProofTask* task : tasks_of(set, group, Arithmetic::kResidues)) {
-      const Valences v = valences_of(*task);
-      for (const int d : {v[1], v[3]}) {
-        apart.insert({std::min(v[0], v[2]), std::max(v[0], v[2]), d});
-        std::array<int, 3> triple{v[0], v[2], d};
-        std::ranges::sort(triple);
-        whole.insert(triple);
+  const ProofSet standard = proof_set({});
+  for (const ProofSet* set : {&full_set(), &standard}) {
+    EXPECT_EQ(set->impossible.size(), 9U);
+    for (const auto& [group, arithmetic] : {std::pair{"triples", Arithmetic::kResidues},
+                                            {"deep", Arithmetic::kResidues},
+                                            {"digits", Arithmetic::kDigits}}) {
+      std::set<std::array<int, 3>> whole, apart;
+      for (const ProofTask* task : tasks_of(*set, group, arithmetic)) {
+        const Valences v = valences_of(*task);
+        for (const int d : {v[1], v[3]}) {
+          apart.insert({std::min(v[0], v[2]), std::max(v[0], v[2]), d});
+          std::array<int, 3> triple{v[0], v[2], d};
+          std::ranges::sort(triple);
+          whole.insert(triple);
+        }
       }
-    }
-    EXPECT_EQ(whole.size(), 220U - 9) << group;
-    if (group == std::string("triples")) {
-      EXPECT_EQ(apart.size(), 550U - 2 * 9);
+      EXPECT_EQ(whole.size(), 220U - 9) << group;
+      if (group == std::string("triples")) {
+        EXPECT_EQ(apart.size(), 550U - 2 * 9);
+      }
     }
   }
 }
@@ -91,7 +92,7 @@ std::set<Valences> pairs_by_edges(const data::ControlMesh& mesh) {
 }
 
 TEST(Proof_Set, HoldsEveryPairOfTheBumpySpheres) {
-  const ProofSet standard = standard_set();
+  const ProofSet standard = proof_set({});
   for (const ProofSize size : {ProofSize::kStandard, ProofSize::kFull}) {
     std::set<Valences> expected;
     for (const int faces : size == ProofSize::kFull ? std::vector{200, 800, 2000, 4000} : std::vector{200})

@@ -97,10 +97,6 @@ using Edge = SurfaceReport::Edge;
 constexpr std::size_t kWitnesses = 16;
 constexpr std::int32_t kGrain = 4096;
 
-bool degenerate(const Triangle& t) {
-  return t[0] < 0 || t[1] < 0 || t[2] < 0 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 // The findings of one block of consecutive points. Blocks are joined in order, so the result does not depend
 // on threads.
 struct Block {
@@ -265,7 +261,7 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
   // The stars, laid out one after the other (counting sort by point).
   std::vector<std::int32_t> start(static_cast<std::size_t>(point_count) + 1, 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (degenerate(triangles[t])) {
+    if (is_degenerate(triangles[t])) {
       ++report.degenerate_triangles;
       witness(report.degenerate_witness, static_cast<std::int32_t>(t));
       continue;
@@ -278,7 +274,7 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
     std::vector<std::int32_t> fill(start.begin(), start.end() - 1);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const Triangle& c = triangles[t];
-      if (degenerate(c)) continue;
+      if (is_degenerate(c)) continue;
       for (int k = 0; k < 3; ++k)
         rays[fill[c[k]]++] = {c[(k + 1) % 3], c[(k + 2) % 3], static_cast<std::int32_t>(t)};
     }

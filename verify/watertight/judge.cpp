@@ -30,10 +30,6 @@ Mesh::Vertex_index vertex(std::int32_t p) {
   return Mesh::Vertex_index(static_cast<Mesh::size_type>(p));
 }
 
-bool is_degenerate(const std::array<std::int32_t, 3>& t) {
-  return t[0] < 0 || t[1] < 0 || t[2] < 0 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
 std::int64_t most_at_a_point(std::int64_t point_count, Triangles triangles) {
   std::vector<std::int64_t> count(static_cast<std::size_t>(point_count), 0);
   std::int64_t most = 0;

@@ -57,6 +57,11 @@ struct SurfaceReport {
   bool closed() const { return manifold() && open_edges.empty(); }
 };
 
+/// Two corners are one point, or one is not finite.
+inline bool is_degenerate(const std::array<std::int32_t, 3>& t) {
+  return t[0] < 0 || t[1] < 0 || t[2] < 0 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 /// Looks at the surface that `triangles` (3 indices each, into 0..point_count-1, -1 for a point that is not
 /// finite) forms. Linear in the input, in parallel; the result does not depend on the number of threads.
 SurfaceReport inspect_surface(std::int64_t point_count,

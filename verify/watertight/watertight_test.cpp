@@ -75,76 +75,51 @@ TEST(Merge, TakesMinusZeroForZeroAndNaNForNoPlace) {
   EXPECT_EQ(merged.point_of, (std::vector<std::int32_t>{0, 0, -1, -1}));
 }
 
-TEST(Surface, AClosedTetrahedronIsClosed) {
-  const SurfaceReport r = look(4, kTetrahedron);
-  EXPECT_TRUE(r.closed());
-  EXPECT_EQ(r.edges, 6);
-  EXPECT_EQ(r.open_loops, 0);
+Triangles with(Triangles triangles, const Triangles& more) {
+  triangles.insert(triangles.end(), more.begin(), more.end());
+  return triangles;
 }
 
-TEST(Surface, AMissingTriangleOpensOneLoop) {
-  const SurfaceReport r = look(4, {kTetrahedron.begin(), kTetrahedron.end() - 1});
-  EXPECT_TRUE(r.manifold());
-  EXPECT_FALSE(r.closed());
-  EXPECT_EQ(r.open_edges.size(), 3U);
-  EXPECT_EQ(r.open_loops, 1);
-}
-
-TEST(Surface, AnAnnulusHasTwoLoops) {
-  Triangles ring = grid(2, 8, true);
+TEST(Surface, IsClosedOrHasItsFaultsCounted) {
+  Triangles ring = grid(2, 8, true), flipped = kTetrahedron, other = kTetrahedron;
   ring.resize(16);  // one row of the torus
-  const SurfaceReport r = look(16, ring);
-  EXPECT_TRUE(r.manifold());
-  EXPECT_EQ(r.open_loops, 2);
-  EXPECT_EQ(r.open_edges.size(), 16U);
-}
-
-TEST(Surface, AFlippedTriangleClashes) {
-  Triangles t = kTetrahedron;
-  std::swap(t[2][0], t[2][1]);
-  const SurfaceReport r = look(4, t);
-  EXPECT_EQ(r.clashing_edges, 3);
-  EXPECT_EQ(r.bow_tie_points, 0);
-  EXPECT_FALSE(r.manifold());
-}
-
-TEST(Surface, ADuplicateTriangleIsCounted) {
-  Triangles t = kTetrahedron;
-  t.push_back({1, 3, 0});
-  const SurfaceReport r = look(4, t);
-  EXPECT_EQ(r.duplicate_triangles, 1);
-  EXPECT_EQ(r.duplicate_witness, (std::vector<std::int32_t>{4}));
-  EXPECT_EQ(r.crowded_edges, 3);
-}
-
-TEST(Surface, ADegenerateTriangleIsCounted) {
-  Triangles t = kTetrahedron;
-  t.push_back({1, 1, 0});
-  t.push_back({1, -1, 0});
-  const SurfaceReport r = look(4, t);
-  EXPECT_EQ(r.degenerate_triangles, 2);
-  EXPECT_FALSE(r.manifold());
-}
-
-TEST(Surface, ThreeTrianglesAtAnEdgeAreCrowded) {
-  const SurfaceReport r = look(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  EXPECT_EQ(r.crowded_edges, 1);
-  ASSERT_EQ(r.crowded_witness.size(), 1U);
-  EXPECT_EQ(r.crowded_witness[0].from, 0);
-  EXPECT_EQ(r.crowded_witness[0].to, 1);
-}
-
-TEST(Surface, TwoConesAtOnePointAreABowTie) {
-  Triangles t = kTetrahedron;  // a second tetrahedron over 4, 5, 6 and the same apex 3
-  for (const auto& [a, b, c] : kTetrahedron) {
-    const auto other = [](std::int32_t p) { return p == 3 ? 3 : p + 4; };
-    t.push_back({other(a), other(b), other(c)});
+  std::swap(flipped[2][0], flipped[2][1]);
+  for (auto& triangle : other)
+    for (std::int32_t& p : triangle) p += p == 3 ? 0 : 4;  // over 4, 5, 6 and the same apex 3
+  struct {
+    const char* what;
+    std::int64_t points;
+    Triangles triangles;
+    std::int64_t open_edges, loops, clashing, duplicate, crowded, degenerate, bow_ties;
+  } const all[]{{"a tetrahedron", 4, kTetrahedron, 0, 0, 0, 0, 0, 0, 0},
+                {"a triangle less", 4, {kTetrahedron.begin(), kTetrahedron.end() - 1}, 3, 1, 0, 0, 0, 0, 0},
+                {"an annulus", 16, ring, 16, 2, 0, 0, 0, 0, 0},
+                {"a flipped triangle", 4, flipped, 0, 0, 3, 0, 0, 0, 0},
+                {"a triangle twice", 4, with(kTetrahedron, {{1, 3, 0}}), 0, 0, 0, 1, 3, 0, 0},
+                {"lines", 4, with(kTetrahedron, {{1, 1, 0}, {1, -1, 0}}), 0, 0, 0, 0, 0, 2, 0},
+                {"three at an edge", 5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 6, -1, 0, 0, 1, 0, 0},
+                {"two cones at a point", 7, with(kTetrahedron, other), 0, 0, 0, 0, 0, 0, 1},
+                {"two triangles at a point", 5, {{0, 1, 2}, {0, 3, 4}}, 6, -1, 0, 0, 0, 0, 1}};
+  for (const auto& of : all) {
+    const SurfaceReport r = look(of.points, of.triangles);
+    EXPECT_EQ(std::ssize(r.open_edges), of.open_edges) << of.what;
+    EXPECT_EQ(r.open_loops, of.loops) << of.what;
+    EXPECT_EQ(r.clashing_edges, of.clashing) << of.what;
+    EXPECT_EQ(r.duplicate_triangles, of.duplicate) << of.what;
+    EXPECT_EQ(r.crowded_edges, of.crowded) << of.what;
+    EXPECT_EQ(r.degenerate_triangles, of.degenerate) << of.what;
+    EXPECT_EQ(r.bow_tie_points, of.bow_ties) << of.what;
+    EXPECT_EQ(r.manifold(), of.clashing + of.duplicate + of.crowded + of.degenerate + of.bow_ties == 0)
+        << of.what;
+    EXPECT_EQ(r.closed(), r.manifold() && of.open_edges == 0) << of.what;
+    EXPECT_EQ(r.duplicate_witness, std::vector<std::int32_t>(of.duplicate, 4));
+    EXPECT_EQ(r.bow_tie_witness, std::vector<std::int32_t>(of.bow_ties, of.points == 7 ? 3 : 0));
   }
-  const SurfaceReport closed = look(7, t);
-  EXPECT_EQ(closed.bow_tie_points, 1);
-  EXPECT_EQ(closed.bow_tie_witness, (std::vector<std::int32_t>{3}));
-  const SurfaceReport open = look(5, {{0, 1, 2}, {0, 3, 4}});
-  EXPECT_EQ(open.bow_tie_points, 1);
+  EXPECT_EQ(look(4, kTetrahedron).edges, 6);
+  const SurfaceReport book = look(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  ASSERT_EQ(book.crowded_witness.size(), 1U);
+  EXPECT_EQ(book.crowded_witness[0].from, 0);
+  EXPECT_EQ(book.crowded_witness[0].to, 1);
 }
 
 TEST(Surface, ATVertexIsFoundExactly) {

@@ -306,10 +306,10 @@ std::string blind_spots(const FileEvidence& e) {
     if (sides == 0) return "";
     beside_corners = beside_corners || sides == 1;
   }
-  const GuessedRule scheme =
-      e.scheme() == data::Scheme::kLoop ? GuessedRule::kLoop : GuessedRule::kCatmullClark;
-  const auto refined = scheme_points(e.control, scheme, beside_corners ? 1 : 0, false);
-  const auto limits = scheme_points(e.control, scheme, beside_corners ? 1 : 0, true);
+  const auto points = [&](bool limit) {
+    return scheme_points(e.control, own_scheme(e), beside_corners ? 1 : 0, limit);
+  };
+  const std::vector<Vector> refined = points(false), limits = points(true);
   double farthest = 0;
   for (std::size_t v = 0; v < limits.size(); ++v) farthest = std::max(farthest, norm(limits[v] - refined[v]));
   std::string text = beside_corners ? "no vertex lies inside a control face, only at its corners and on its "

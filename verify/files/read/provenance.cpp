@@ -68,7 +68,8 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
 
     if (width == 0) {
       width = words.size();
-      if (!words[0].empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0) {
+      const bool heading = !words[0].empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0;
+      if (heading) {
         for (std::size_t k = 0; k < width; ++k)
           if (const Column c = column(words[k]); c != kCount) place[c] = static_cast<int>(k);
       } else if (width == 4) {
@@ -80,7 +81,7 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
       const bool lattice = place[kI] >= 0 && place[kJ] >= 0 && place[kDenominator] >= 0;
       if (place[kVertex] < 0 || place[kFace] < 0 || !(real || lattice))
         fail("FILE_SYNTAX", "the columns are vertex,face,l1,l2 or vertex,face,i,j,denominator");
-      if (std::isalpha(static_cast<unsigned char>(words[0].empty() ? '0' : words[0][0])) != 0) continue;
+      if (heading) continue;
     }
     if (words.size() != width) fail("FILE_SYNTAX", fmt::format("{} columns, not {}", words.size(), width));
     const auto integer = [&](Column column) {
@@ -112,6 +113,7 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
       fail("FILE_SYNTAX", error.what());
     }
     const double a = l1.as_double(), b = l2.as_double();
+    row.at.face = static_cast<std::int32_t>(face);
     if (scheme == data::Scheme::kCatmullClark) {
       const auto corners = static_cast<std::int64_t>(control.faces[static_cast<std::size_t>(face)].size());
       const bool told = place[kCorner] >= 0 && !words[place[kCorner]].empty();
@@ -123,16 +125,14 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
                                       : "the column corner says which of its quads is meant"));
       if (!(a >= 0 && a <= 1 && b >= 0 && b <= 1))
         fail("FILE_PROVENANCE", fmt::format("({}, {}) is outside the unit square", a, b));
-      row.at = {static_cast<std::int32_t>(face), Chart::at(a, b)};
+      row.at.l = Chart::at(a, b);
       row.corner = corners == 4 ? -1 : static_cast<int>(corner);
-      rows.push_back(row);
-      continue;
+    } else {
+      // Decimals of l1 and l2 may sum to a little more than 1.
+      if (!(a >= 0 && b >= 0 && a + b <= 1 + 1e-9))
+        fail("FILE_PROVENANCE", fmt::format("({}, {}) is outside the face", a, b));
+      row.at.l = clamped({reference::Parameter::complement(l1, l2).as_double(), a, b});
     }
-    // Decimals of l1 and l2 may sum to a little more than 1.
-    if (!(a >= 0 && b >= 0 && a + b <= 1 + 1e-9))
-      fail("FILE_PROVENANCE", fmt::format("({}, {}) is outside the face", a, b));
-    row.at = {static_cast<std::int32_t>(face),
-              clamped({reference::Parameter::complement(l1, l2).as_double(), a, b})};
     rows.push_back(row);
   }
   if (rows.empty()) throw InputError("FILE_TRUNCATED", name, 0, "no rows");

@@ -46,36 +46,24 @@ double KernelBounds::position() const {
   for (const PointBound& p : points) worst = std::max(worst, p.position);
   return worst;
 }
-double KernelBounds::tangent() const {
-  double worst = 0;
-  for (const PointBound& p : points)
-    if (p.has_tangents) worst = std::max({worst, p.du.relative(), p.dv.relative()});
-  return worst;
-}
-double KernelBounds::normal() const {
-  double worst = 0;
-  for (const PointBound& p : points)
-    if (p.has_tangents) worst = std::max(worst, normal_error_share(p));
-  return worst;
-}
 
 KernelBounds bound_kernel(ProvedKernel kernel, const Neighbourhood& neighbourhood, int depth, double reach,
                           const RoundingModel& model) {
   const BoundScope scope(reach, model);
   const std::size_t n = neighbourhood.mesh.positions.size();
-  // One coordinate stands for three: the kernels treat them alike until the normal, see WorstObserved::alike.
+  // One coordinate stands for three: the kernels treat them alike until the normal, see BoundProof::alike.
   std::vector<fast::Vec3<BoundFloat>> points(n);
   for (auto& p : points) p.x = BoundFloat(BoundForm::variable());
-  LinearRuns<BoundFloat, BoundLane> runs(neighbourhood.mesh, points);
   KernelBounds bounds{kernel, depth, {}};
   const auto tangent = [&](const BoundFloat& t) -> TangentBound {
     return {t.error(), t.form().true_magnitude(), control_weights(t.form(), n)};
   };
-  runs.run(kernel, depth, [&](const fast::LatticePoint& at, const fast::LimitFrame<BoundFloat>& frame) {
+  const auto add = [&](const fast::LatticePoint& at, const fast::LimitFrame<BoundFloat>& frame) {
     PointBound point{at, frame.position.x.error(), !is_stream(kernel) || !is_control_vertex(at), {}, {}};
     if (point.has_tangents) point.du = tangent(frame.du.x), point.dv = tangent(frame.dv.x);
     bounds.points.push_back(std::move(point));
-  });
+  };
+  run_linear<BoundFloat, BoundLane>(neighbourhood.mesh, points, kernel, depth, add);
   return bounds;
 }
 
@@ -95,17 +83,10 @@ double normal_error_share(const PointBound& bound) {
 
 BoundProof prove_bound(ProvedKernel kernel, const Neighbourhood& neighbourhood, int first_depth,
                        int last_depth, int meshes) {
-  BoundProof proof;
-  proof.first_depth = first_depth;
-  proof.last_depth = last_depth;
-  for (int depth = first_depth; depth <= last_depth; ++depth) {
-    const KernelBounds bounds = bound_kernel(kernel, neighbourhood, depth);
-    const WorstObserved worst = search_worst(neighbourhood, bounds, depth <= 4 ? meshes : meshes / 5,
-                                             static_cast<std::uint64_t>(depth) + 1);
-    proof.add({depth, depth, bounds.position(), worst.position, bounds.tangent(), worst.tangent,
-               bounds.normal(), worst.product, std::max(worst.position_share, worst.tangent_share),
-               worst.alike, worst.shipped});
-  }
+  BoundProof proof{first_depth, last_depth};
+  for (int depth = first_depth; depth <= last_depth; ++depth)
+    proof.add(search_worst(neighbourhood, bound_kernel(kernel, neighbourhood, depth),
+                           depth <= 4 ? meshes : meshes / 5, static_cast<std::uint64_t>(depth) + 1));
   return proof;
 }
 

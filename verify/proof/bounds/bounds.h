@@ -43,8 +43,6 @@ struct KernelBounds {
   int depth = 0;
   std::vector<PointBound> points;
   double position() const;
-  double tangent() const;  ///< relative to the tangent's size, which a depth and a kernel scale
-  double normal() const;   ///< largest normal_error_share of any point
 };
 
 /// Runs the shipped kernel on BoundNumber (error_bound_number.h, where the model is stated). Covered: every
@@ -80,24 +78,12 @@ double product_error(const PointBound& bound);
 /// squares, and the inverse root of row streaming (2.2e-7, see rules-inl.h).
 inline constexpr double kLengthBound = 8 * 0x1p-24;
 
-/// The worst errors found by trying: random control meshes and signs at the corners of the box, then changes
-/// of one coordinate at a time that make the largest error larger.
-struct WorstObserved {
-  double position = 0;  ///< largest error of a coordinate
-  double tangent = 0;   ///< the same relative to the tangent's size
-  /// Largest share of its own point's bound: at most 1, or the proof is wrong.
-  double position_share = 0, tangent_share = 0;
-  std::int64_t meshes = 0;
-  bool alike =
-      true;  ///< a mesh with x = y = z in all control points has x = y = z in all points, bit for bit
-  double product = 0;    ///< BoundProof::product_bound: not an error that was found, but one that can be
-  ShippedProof shipped;  ///< of four more meshes
-};
-
-/// The real float kernel against the exact limit. Positions come from the reference (Stam's evaluator in
-/// double, whose own error of some 1e-16 is far below a float's), tangents from the rows of the bounds.
-WorstObserved search_worst(const Neighbourhood& neighbourhood, const KernelBounds& bounds, int meshes,
-                           std::uint64_t seed, double reach = kUnitBox);
+/// The bounds, and the worst errors found by trying: random control meshes and signs at the corners of the box, then
+/// changes of one coordinate at a time that make the largest error larger; and what ships, on four more meshes. The real
+/// float kernel against the exact limit: positions come from the reference (Stam's evaluator in double, whose own error
+/// of some 1e-16 is far below a float's), tangents from the rows of the bounds.
+BoundProof search_worst(const Neighbourhood& neighbourhood, const KernelBounds& bounds, int meshes,
+                        std::uint64_t seed, double reach = kUnitBox);
 
 /// Bounds and search over the depths: what the table shows.
 ///   meshes   tried at each depth up to 4; a fifth of them beyond, where each has many times the points

@@ -25,11 +25,8 @@ template <int tangent>
 using FloatLane = fast::row_stream::LinearNumber<float, tangent>;
 
 using Row = std::vector<double>;
-using Mesh = std::vector<fast::Vec3<float>>;
-
 // Three meshes at once, one per coordinate: the kernels treat coordinates alike (Search::alike).
-constexpr std::array<float fast::Vec3<float>::*, 3> kCoordinates{&fast::Vec3<float>::x, &fast::Vec3<float>::y,
-                                                                 &fast::Vec3<float>::z};
+using Mesh = std::vector<fast::Vec3<float>>;
 
 // A mesh is changed this often, one control point per coordinate, before the next begins anew.
 constexpr int kClimb = 40;
@@ -47,21 +44,13 @@ struct Quantity {
   Row per_bound;  // 1 / proved bound
 };
 
-struct Errors {
-  std::array<double, 3> share{};  // of the bound, largest over the points: what is climbed
-  WorstObserved worst;
-};
-
 // The weights of the control points in every limit point, by Stam's evaluator.
 std::vector<MapRow<double>> exact_rows(const data::ControlMesh& mesh, const KernelBounds& bounds) {
   std::vector<MapRow<double>> rows;
   const auto ask = [&](auto reference) {
     for (const PointBound& p : bounds.points) rows.push_back(reference.at(p.at));
   };
-  if (mesh.faces.are_triangles())
-    ask(ReferenceMap<double, reference::StamEvaluator<double>>(mesh));
-  else
-    ask(ReferenceMap<double, reference::catmull_clark::StamEvaluator<double>>(mesh));
+  by_scheme(mesh, [&]<class Scheme>(Scheme) { ask(StamMap<double, Scheme::kQuads>(mesh)); });
   return rows;
 }
 
@@ -87,6 +76,8 @@ class Search {
       : neighbourhood_(neighbourhood), bounds_(bounds), reach_(reach), random_(seed) {
     const std::vector<MapRow<double>> exact = exact_rows(neighbourhood.mesh, bounds);
     const std::size_t points = bounds.points.size();
+    proof_.first_depth = proof_.last_depth = bounds.depth;
+    proof_.position_bound = bounds.position();
     for (Quantity& q : quantities_) {
       q.weights.resize(neighbourhood.mesh.positions.size() * points);
       q.doubt.resize(points), q.per_size.resize(points), q.per_bound.resize(points);
@@ -97,15 +88,17 @@ class Search {
       const PointBound& p = normals_.back();
       put(quantities_[1], k, p.du.weights, p.du.size, p.du.size, p.du.error);
       put(quantities_[2], k, p.dv.weights, p.dv.size, p.dv.size, p.dv.error);
-      product_ = std::max(product_, product_by_parameters(bounds.points[k], exact[k]));
+      if (!bounds.points[k].has_tangents) continue;
+      proof_.tangent_bound = std::max({proof_.tangent_bound, p.du.relative(), p.dv.relative()});
+      proof_.normal_bound = std::max(proof_.normal_bound, normal_error_share(p));
+      proof_.product_bound = std::max(proof_.product_bound, product_by_parameters(p, exact[k]));
     }
     for (auto* values : {&best_exact_, &trial_exact_})
       for (auto& coordinate : *values)
         for (Row& quantity : coordinate) quantity.resize(points);
   }
 
-  WorstObserved run(int meshes) {
-    WorstObserved worst;
+  BoundProof run(int meshes) {
     Mesh best(neighbourhood_.mesh.positions.size());
     std::array<double, 3> best_share{};
     for (int k = 0; k < meshes; ++k) {
@@ -113,35 +106,29 @@ class Search {
       if (k % kClimb == 0) {
         best_share = {};
         for (auto& p : trial)
-          for (std::size_t c = 0; c < 3; ++c) p.*kCoordinates[c] = fresh((k / kClimb + c) % 4);
+          for (std::size_t c = 0; c < 3; ++c) p[c] = fresh((k / kClimb + c) % 4);
         for (std::size_t c = 0; c < 3; ++c) evaluate(trial, c);
       } else {
         for (std::size_t c = 0; c < 3; ++c) {
           const float to = fresh(random_.next() % 4);
           const std::size_t v = random_.next() % trial.size();
-          const double change = static_cast<double>(to) - static_cast<double>(trial[v].*kCoordinates[c]);
-          trial[v].*kCoordinates[c] = to;
+          const double change = static_cast<double>(to) - static_cast<double>(trial[v][c]);
+          trial[v][c] = to;
           for (std::size_t q = 0; q < 3; ++q)
             add(quantities_[q], v, change, best_exact_[c][q], trial_exact_[c][q]);
         }
       }
-      const Errors errors = measure(trial, k / kClimb % 2 == 1);
+      const std::array<double, 3> share = measure(trial, k / kClimb % 2 == 1);
       for (std::size_t c = 0; c < 3; ++c) {
-        if (k % kClimb != 0 && errors.share[c] <= best_share[c]) continue;
-        best_share[c] = errors.share[c];
-        for (std::size_t v = 0; v < best.size(); ++v) best[v].*kCoordinates[c] = trial[v].*kCoordinates[c];
+        if (k % kClimb != 0 && share[c] <= best_share[c]) continue;
+        best_share[c] = share[c];
+        for (std::size_t v = 0; v < best.size(); ++v) best[v][c] = trial[v][c];
         std::swap(best_exact_[c], trial_exact_[c]);
       }
-      worst.position = std::max(worst.position, errors.worst.position);
-      worst.tangent = std::max(worst.tangent, errors.worst.tangent);
-      worst.position_share = std::max(worst.position_share, errors.worst.position_share);
-      worst.tangent_share = std::max(worst.tangent_share, errors.worst.tangent_share);
     }
-    worst.meshes = meshes;
-    worst.alike = alike();
-    worst.product = product_;
-    worst.shipped = shipped();
-    return worst;
+    proof_.alike = alike();
+    proof_.shipped = shipped();
+    return std::move(proof_);
   }
 
  private:
@@ -151,7 +138,7 @@ class Search {
     for (std::size_t m = 0; m < meshes.size(); ++m) {
       meshes[m].resize(neighbourhood_.mesh.positions.size());
       for (auto& p : meshes[m]) {
-        for (const auto c : kCoordinates) p.*c = fresh(m % 2 == 0 ? 0 : 2);
+        for (std::size_t c = 0; c < 3; ++c) p[c] = fresh(m % 2 == 0 ? 0 : 2);
         if (m >= 2) p.z *= 0x1p-4F;
       }
     }
@@ -167,9 +154,9 @@ class Search {
       };
       for (std::size_t k = 0; k < normals_.size(); ++k) {
         const auto position = fast::widen(found.vertices[m][k].position) - exact(0, k);
-        for (const double error : {position.x, position.y, position.z})
+        for (std::size_t c = 0; c < 3; ++c)
           raise(proof.position_share,
-                (std::abs(error) - quantities_[0].doubt[k]) * quantities_[0].per_bound[k]);
+                (std::abs(position[c]) - quantities_[0].doubt[k]) * quantities_[0].per_bound[k]);
         const auto normal = fast::widen(found.vertices[m][k].normal);
         raise(proof.normal_share, std::abs(length(normal) - 1) / kLengthBound);
         const auto product = fast::cross(exact(1, k), exact(2, k));
@@ -185,7 +172,7 @@ class Search {
   // product_error in the units of d1 x d2, which a kernel's tangents multiply by a determinant; 0 at control
   // vertices.
   static double product_by_parameters(const PointBound& p, const MapRow<double>& exact) {
-    if (!p.has_tangents || (p.at.i % p.at.denominator == 0 && p.at.j % p.at.denominator == 0)) return 0;
+    if (p.at.i % p.at.denominator == 0 && p.at.j % p.at.denominator == 0) return 0;
     const Row &d1 = exact.d1, &d2 = exact.d2;
     std::size_t a = 0, b = 0;
     for (std::size_t k = 0; k < d1.size(); ++k)
@@ -208,13 +195,21 @@ class Search {
       const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
       return bits(v.x) == bits(v.y) && bits(v.x) == bits(v.z);
     };
-    LinearRuns<float, FloatLane> runs(neighbourhood_.mesh, mesh);
-    std::size_t k = 0;
-    runs.run(bounds_.kernel, bounds_.depth, [&](const fast::LatticePoint&, const fast::LimitFrame<float>& f) {
-      const bool has_tangents = bounds_.points[k++].has_tangents;
-      result = result && is_alike(f.position) && (!has_tangents || (is_alike(f.du) && is_alike(f.dv)));
+    run_kernel(mesh, [&](std::size_t k, const fast::LimitFrame<float>& f) {
+      result = result && is_alike(f.position) &&
+               (!bounds_.points[k].has_tangents || (is_alike(f.du) && is_alike(f.dv)));
     });
     return result;
+  }
+
+  // visit(number of the point, frame)
+  template <class Visit>
+  void run_kernel(const Mesh& mesh, Visit&& visit) const {
+    run_linear<float, FloatLane>(
+        neighbourhood_.mesh, mesh, bounds_.kernel, bounds_.depth,
+        [&, k = std::size_t{0}](const fast::LatticePoint&, const fast::LimitFrame<float>& f) mutable {
+          visit(k++, f);
+        });
   }
 
   static void put(Quantity& q, std::size_t k, const Row& row, double largest, double size, double bound) {
@@ -246,39 +241,34 @@ class Search {
       Row& exact = trial_exact_[c][q];
       std::ranges::fill(exact, 0.);
       for (std::size_t v = 0; v < mesh.size(); ++v)
-        add(quantities_[q], v, static_cast<double>(mesh[v].*kCoordinates[c]), exact, exact);
+        add(quantities_[q], v, static_cast<double>(mesh[v][c]), exact, exact);
     }
   }
 
-  Errors measure(const Mesh& mesh, bool climb_tangents) const {
-    Errors errors;
-    LinearRuns<float, FloatLane> runs(neighbourhood_.mesh, mesh);
-    std::size_t k = 0;
-    runs.run(bounds_.kernel, bounds_.depth, [&](const fast::LatticePoint&, const fast::LimitFrame<float>& f) {
+  // Of each coordinate the largest share of a bound, over the points: what is climbed.
+  std::array<double, 3> measure(const Mesh& mesh, bool climb_tangents) {
+    std::array<double, 3> climbed{};
+    run_kernel(mesh, [&](std::size_t k, const fast::LimitFrame<float>& f) {
       const bool has_tangents = bounds_.points[k].has_tangents;
-      WorstObserved& worst = errors.worst;
       for (std::size_t c = 0; c < 3; ++c) {
         const auto error = [&](std::size_t q, const fast::Vec3<float>& found) {
           const double exact = trial_exact_[c][q][k];
-          return std::abs(static_cast<double>(found.*kCoordinates[c]) - exact) - quantities_[q].doubt[k];
+          return std::abs(static_cast<double>(found[c]) - exact) - quantities_[q].doubt[k];
         };
         const double position = error(0, f.position), share = position * quantities_[0].per_bound[k];
-        worst.position = std::max(worst.position, position);
-        worst.position_share = std::max(worst.position_share, share);
-        double climbed = climb_tangents ? 0 : share;
+        proof_.position_worst = std::max(proof_.position_worst, position);
+        double tangent_share = 0;
         if (has_tangents) {
           const double du = error(1, f.du), dv = error(2, f.dv);
-          const double tangent = std::max(du * quantities_[1].per_bound[k], dv * quantities_[2].per_bound[k]);
-          worst.tangent =
-              std::max({worst.tangent, du * quantities_[1].per_size[k], dv * quantities_[2].per_size[k]});
-          worst.tangent_share = std::max(worst.tangent_share, tangent);
-          if (climb_tangents) climbed = tangent;
+          tangent_share = std::max(du * quantities_[1].per_bound[k], dv * quantities_[2].per_bound[k]);
+          proof_.tangent_worst = std::max(
+              {proof_.tangent_worst, du * quantities_[1].per_size[k], dv * quantities_[2].per_size[k]});
         }
-        errors.share[c] = std::max(errors.share[c], climbed);
+        proof_.share = std::max({proof_.share, share, tangent_share});
+        climbed[c] = std::max(climbed[c], climb_tangents ? tangent_share : share);
       }
-      ++k;
     });
-    return errors;
+    return climbed;
   }
 
   const Neighbourhood& neighbourhood_;
@@ -287,14 +277,14 @@ class Search {
   data::SplitMix64 random_;
   std::array<Quantity, 3> quantities_;
   std::vector<PointBound> normals_;  // of all points, made in double or not
-  double product_ = 0;
+  BoundProof proof_;
   std::array<std::array<Row, 3>, 3> best_exact_, trial_exact_;  // [coordinate][quantity][point]
 };
 
 }  // namespace
 
-WorstObserved search_worst(const Neighbourhood& neighbourhood, const KernelBounds& bounds, int meshes,
-                           std::uint64_t seed, double reach) {
+BoundProof search_worst(const Neighbourhood& neighbourhood, const KernelBounds& bounds, int meshes,
+                        std::uint64_t seed, double reach) {
   return Search(neighbourhood, bounds, reach, seed).run(meshes);
 }
 

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -31,6 +34,12 @@ struct LinearSurface {
 };
 
 using fast::LatticePoint;
+
+/// Point (i, j) of a face's lattice of so many steps.
+inline LatticePoint lattice_point(int i, int j, int size, std::int32_t face = 0) {
+  return {face, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+          static_cast<std::uint32_t>(size)};
+}
 
 /// Of a pair, or one without neighbours.
 inline std::int32_t proved_faces(const fast::Adjacency& adjacency) {
@@ -107,20 +116,38 @@ class WindowRuns {
   fast::PreparedMesh<N, Surface> prepared_;
 };
 
-/// The prepass, the gathering and the kernel of row streaming over T. Runs twice, for one tangent each:
-/// Lane<0> and Lane<1> are LinearNumber<T, 0> and <T, 1> or follow them.
+/// What row streaming delivers when it runs twice, for one tangent each: six numbers a point.
+template <class T>
+class TwoRuns {
+ public:
+  /// run(number of the tangent, output) delivers so many points.
+  template <class Run>
+  TwoRuns(std::size_t points, Run&& run) : first_(6 * points), second_(6 * points) {
+    run(std::integral_constant<int, 0>(), first_.data());
+    run(std::integral_constant<int, 1>(), second_.data());
+  }
+  fast::LimitFrame<T> operator[](std::ptrdiff_t point) const {
+    const T *a = first_.data() + 6 * point, *b = second_.data() + 6 * point;
+    return {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
+  }
+
+ private:
+  std::vector<T> first_, second_;
+};
+
+/// The prepass, the gathering and the kernel of row streaming over T. Lane<0> and Lane<1> are LinearNumber<T, 0> and
+/// <T, 1> or follow them.
 template <class T, template <int> class Lane>
 class StreamRuns {
  public:
-  using Frame = fast::LimitFrame<T>;
-
   /// One position per vertex of the mesh.
   StreamRuns(const data::ControlMesh& mesh, const std::vector<fast::Vec3<T>>& positions)
-      : adjacency_(mesh), first_(adjacency_, arrays(positions)), second_(adjacency_, arrays(positions)) {}
+      : adjacency_(mesh),
+        streams_(Streamed<0>(adjacency_, arrays(positions)), Streamed<1>(adjacency_, arrays(positions))) {}
   StreamRuns(const StreamRuns&) = delete;
   StreamRuns& operator=(const StreamRuns&) = delete;
 
-  /// The pair of half-edge 0, or face 0 if that has no neighbour. Calls visit(LatticePoint, const Frame&),
+  /// The pair of half-edge 0, or face 0 if that has no neighbour. Calls visit(LatticePoint, const LimitFrame<T>&),
   /// row by row.
   template <class Visit>
   void whole(int depth, Visit&& visit) const {
@@ -129,34 +156,26 @@ class StreamRuns {
     const fast::Grid pair =
         alone ? fast::Grid{.face0 = 0, .depth = depth} : fast::Grid{0, twin / 3, 0, twin % 3, depth};
     const int size = 1 << depth, side = size + 1;
-    std::vector<T> first(6 * side * side), second(first.size());
-    first_.whole({&pair, 1}, depth, first.data());
-    second_.whole({&pair, 1}, depth, second.data());
-    for (int row = 0; row <= size; ++row) {
-      for (int column = 0; column <= (alone ? row : size); ++column) {
-        const auto at = fast::face_point(pair, size, column, row, row >= column);
-        const std::size_t k = 6 * (row * side + column);
-        visit(at, frame(&first[k], &second[k]));
-      }
-    }
+    const TwoRuns<T> points(side * side, [&](auto tangent, T* out) {
+      std::get<tangent>(streams_).whole({&pair, 1}, depth, out);
+    });
+    for (int row = 0; row <= size; ++row)
+      for (int column = 0; column <= (alone ? row : size); ++column)
+        visit(fast::face_point(pair, size, column, row, row >= column), points[row * side + column]);
   }
 
   /// The strip of each side, from its origin to its end.
   template <class Visit>
   void sides(int depth, Visit&& visit) const {
     const int size = 1 << depth;
-    std::vector<T> first(6 * (size + 1)), second(first.size());
     for (std::int32_t h = 0; h < 3 * proved_faces(adjacency_); ++h) {
-      first_.edges({&h, 1}, depth, first.data());
-      second_.edges({&h, 1}, depth, second.data());
+      const TwoRuns<T> points(size + 1, [&](auto tangent, T* out) {
+        std::get<tangent>(streams_).edges({&h, 1}, depth, out);
+      });
       const fast::Half half{h / 3, h % 3, fast::Display::kFan};
-      for (int t = 0; t <= size; ++t)
-        visit(half.lattice(size, size - t, t), frame(&first[6 * t], &second[6 * t]));
+      for (int t = 0; t <= size; ++t) visit(half.lattice(size, size - t, t), points[t]);
     }
   }
-  bool has_patch() const { return false; }
-  template <class Visit>
-  void patch(int, Visit&&) const {}
 
  private:
   static std::vector<std::array<T, 3>> arrays(const std::vector<fast::Vec3<T>>& positions) {
@@ -164,13 +183,11 @@ class StreamRuns {
     for (const auto& p : positions) result.push_back({p.x, p.y, p.z});
     return result;
   }
-  static Frame frame(const T* a, const T* b) {
-    return {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
-  }
+  template <int tangent>
+  using Streamed = fast::row_stream::NumberStream<Lane<tangent>>;
 
   fast::Adjacency adjacency_;
-  fast::row_stream::NumberStream<Lane<0>> first_;
-  fast::row_stream::NumberStream<Lane<1>> second_;
+  std::tuple<Streamed<0>, Streamed<1>> streams_;
 };
 
 }  // namespace limitcheck::verify

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,6 @@
 #include "verify/proof/maps/prove_map.h"
 #include "verify/proof/maps/reference_map.h"
 #include "verify/proof/numbers/residue.h"
-#include "verify/proof/proof_set.h"
 #include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {
@@ -44,19 +42,28 @@ double expect_equal(const Neighbourhood& pair, const MapOptions& options, std::s
   return digits;
 }
 
-TEST(Proof_Map, OfPairsWithRationalWeightsIsExact) {
+TEST(Proof_Map, IsExactWithRationalWeights) {
+  RecordProperty("claim", "C21");
   for (const auto& valences : {std::array{6, 6, 6, 6}, std::array{3, 6, 4, 6}, std::array{4, 3, 6, 4}})
     expect_equal(*interior_pair(valences), {Arithmetic::kExact, 0, 3});
+  for (const auto& valences : {std::array{3, 4, 5, 6}, std::array{7, 3, 8, 3}, std::array{12, 5, 3, 4},
+                               std::array{3, 3, 3, 3}, std::array{20, 4, 4, 4}})
+    expect_equal(interior_quad(valences), {Arithmetic::kExact, 0, 2}, kOfQuads);
+  expect_equal(interior_quad({4, 4, 4, 4}), {Arithmetic::kExact, 0, 3});
 }
 
-TEST(Proof_Map, OfOtherPairsIsEqualModuloTwoPrimesToDepthSix) {
+TEST(Proof_Map, OfOtherWeightsIsEqualModuloTwoPrimesToDepthSix) {
   expect_equal(*interior_pair({5, 7, 9, 12}), {Arithmetic::kResidues, 0, 6});
+  expect_equal(interior_quad({5, 3, 7, 4}), {Arithmetic::kResidues, 0, 6}, kOfQuads);
+  expect_equal(interior_quad({4, 4, 4, 4}), {Arithmetic::kResidues, 0, 6});
 }
 
-TEST(Proof_Map, EqualsTheRecursionAndStamToFortyFiveDigits) {
+TEST(Proof_Map, EqualsTheRecursionAndStamToFortyFiveDigitsWithAllTangents) {
   const double digits = expect_equal(*interior_pair({5, 7, 9, 12}), {Arithmetic::kDigits, 0, 3});
   RecordProperty("digits", fmt::format("{:.1f}", digits));
   EXPECT_GE(digits, 45);
+  for (const auto& valences : {std::array{5, 7, 3, 12}, std::array{4, 6, 4, 8}})
+    EXPECT_GE(expect_equal(interior_quad(valences), {Arithmetic::kDigits, 0, 2}, kOfQuads), 45);
 }
 
 TEST(Proof_Map, OfSmallAndLargeValencesIsEqual) {
@@ -106,45 +113,6 @@ TEST(Proof_SharedReferenceMap, EqualsTheEvaluatorsAtEveryPoint) {
       expect_equal({face, 1, 1, 3});
     }
   }
-}
-
-TEST(Proof_Set, HoldsEveryTripleOfItsValencesOrSaysThatThereIsNone) {
-  ProofRequest request;
-  const ProofSet set = proof_set(request);
-  const auto triples = [&](const std::string& group) {
-    std::set<std::array<int, 3>> found;
-    for (const ProofTask& task : set.tasks) {
-      if (task.group != group) continue;
-      std::array<int, 4> v{};
-      std::istringstream(task.neighbourhood.name) >> v[0] >> v[1] >> v[2] >> v[3];
-      for (std::array<int, 3> t : {std::array{v[0], v[2], v[3]}, std::array{v[0], v[1], v[2]}}) {
-        std::ranges::sort(t);
-        found.insert(t);
-      }
-    }
-    return found.size();
-  };
-  constexpr std::size_t kTriples = 220;  // of 10 valences, in any order, repeated or not
-  EXPECT_EQ(set.impossible.size(), 9U);  // 3 3 n with n > 3
-  for (const char* group : {"triples", "deep", "digits"}) EXPECT_EQ(triples(group) + 9, kTriples) << group;
-}
-
-TEST(Proof_QuadMap, IsExactAtEveryValence) {
-  RecordProperty("claim", "C21");
-  for (const auto& valences : {std::array{3, 4, 5, 6}, std::array{7, 3, 8, 3}, std::array{12, 5, 3, 4},
-                               std::array{3, 3, 3, 3}, std::array{20, 4, 4, 4}})
-    expect_equal(interior_quad(valences), {Arithmetic::kExact, 0, 2}, kOfQuads);
-  expect_equal(interior_quad({4, 4, 4, 4}), {Arithmetic::kExact, 0, 3});
-}
-
-TEST(Proof_QuadMap, IsEqualModuloTwoPrimesToDepthSix) {
-  expect_equal(interior_quad({5, 3, 7, 4}), {Arithmetic::kResidues, 0, 6}, kOfQuads);
-  expect_equal(interior_quad({4, 4, 4, 4}), {Arithmetic::kResidues, 0, 6});
-}
-
-TEST(Proof_QuadMap, EqualsTheRecursionAndStamToFortyFiveDigitsWithAllTangents) {
-  for (const auto& valences : {std::array{5, 7, 3, 12}, std::array{4, 6, 4, 8}})
-    EXPECT_GE(expect_equal(interior_quad(valences), {Arithmetic::kDigits, 0, 2}, kOfQuads), 45);
 }
 
 TEST(Proof_QuadMap, AtBoundariesIsEqual) {

@@ -33,13 +33,10 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
 
 namespace detail {
 
-/// In one arithmetic, of a .cpp file each; of quads or not.
-std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options,
-                                    bool quads);
-std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options,
-                                        bool quads);
-std::vector<ProofRow> prove_in_digits(const Neighbourhood& neighbourhood, const MapOptions& options,
-                                      bool quads);
+/// In one arithmetic, of a .cpp file each.
+std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options);
+std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options);
+std::vector<ProofRow> prove_in_digits(const Neighbourhood& neighbourhood, const MapOptions& options);
 
 }  // namespace detail
 }  // namespace limitcheck::verify

@@ -3,15 +3,12 @@
 
 namespace limitcheck::verify::detail {
 
-std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options,
-                                    bool quads) {
-  if (quads) {
-    using C = reference::Rational;
-    using Recursion = ReferenceMap<C, reference::catmull_clark::SubdivisionEvaluator<C>>;
-    return prove_map<QuadRuns, C>(neighbourhood, options, std::tuple<Recursion>(neighbourhood.mesh));
-  }
-  using Recursion = SharedReferenceMap<Surd>;
-  return prove_map<TriangleRuns, Surd>(neighbourhood, options, std::tuple<Recursion>(neighbourhood.mesh));
+std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options) {
+  return by_scheme(neighbourhood.mesh, [&]<class Scheme>(Scheme) {
+    using C = std::conditional_t<Scheme::kQuads, reference::Rational, Surd>;
+    using Maps = std::tuple<QuickMap<C, Scheme::kQuads>>;
+    return prove_map<Scheme, C>(neighbourhood, options, Maps(neighbourhood.mesh));
+  });
 }
 
 }  // namespace limitcheck::verify::detail

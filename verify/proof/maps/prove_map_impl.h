@@ -80,7 +80,8 @@ class MapComparison {
     for (const auto& entry : s.entries()) row[entry.point] = entry.weight;
     return row;
   }
-  bool fail(const char* quantity, std::size_t point, const C& found, const C& expected) {
+  /// `point`: -1 is none.
+  bool fail(const std::string& quantity, std::ptrdiff_t point, const C& found, const C& expected) {
     witness_ =
         MapWitness{"", quantity, static_cast<int>(point), K::approximate(found), K::approximate(expected)};
     return false;
@@ -93,9 +94,7 @@ class MapComparison {
   bool check_sum(const char* quantity, const Stencil<C>& s, int expected) {
     C sum(0);
     for (const auto& entry : s.entries()) sum += entry.weight;
-    if (equal(sum, C(expected)) && K::is_zero(s.constant())) return true;
-    witness_ = MapWitness{"", quantity, -1, K::approximate(sum), static_cast<double>(expected)};
-    return false;
+    return (equal(sum, C(expected)) && K::is_zero(s.constant())) || fail(quantity, -1, sum, C(expected));
   }
 
   bool check_position(const Stencil<C>& found, const Row& expected) {
@@ -118,9 +117,8 @@ class MapComparison {
     return check_other(quantity + " in y", found.y, y) && check_other(quantity + " in z", found.z, z);
   }
   bool check_other(const std::string& quantity, const Stencil<C>& found, const C& expected) {
-    if (found.entries().empty() && equal(found.constant(), expected)) return true;
-    witness_ = MapWitness{"", quantity, -1, K::approximate(found.constant()), K::approximate(expected)};
-    return false;
+    return (found.entries().empty() && equal(found.constant(), expected)) ||
+           fail(quantity, -1, found.constant(), expected);
   }
 
   // du, dv in terms of d1, d2, as two of the control points have it.
@@ -251,10 +249,6 @@ ProofRow compare(const Neighbourhood& neighbourhood, const char* kernel, const M
   return row;
 }
 
-}  // namespace detail
-
-namespace detail {
-
 /// Whether a float or double engine scales limit points by the number next to what the proof's own numbers
 /// are scaled by: fast::row_stream::scaled has a branch for them. A sample of units stands for all, which are
 /// powers of two.
@@ -306,5 +300,4 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
 }
 
 }  // namespace detail
-
 }  // namespace limitcheck::verify

@@ -4,14 +4,11 @@
 
 namespace limitcheck::verify::detail {
 
-std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options,
-                                        bool quads) {
-  if (quads) {
-    using Recursion = ReferenceMap<Residue, reference::catmull_clark::SubdivisionEvaluator<Residue>>;
-    return prove_map<QuadRuns, Residue>(neighbourhood, options, std::tuple<Recursion>(neighbourhood.mesh));
-  }
-  using Recursion = SharedReferenceMap<Residue>;
-  return prove_map<TriangleRuns, Residue>(neighbourhood, options, std::tuple<Recursion>(neighbourhood.mesh));
+std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options) {
+  return by_scheme(neighbourhood.mesh, [&]<class Scheme>(Scheme) {
+    using Maps = std::tuple<QuickMap<Residue, Scheme::kQuads>>;
+    return prove_map<Scheme, Residue>(neighbourhood, options, Maps(neighbourhood.mesh));
+  });
 }
 
 }  // namespace limitcheck::verify::detail

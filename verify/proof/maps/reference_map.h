@@ -256,4 +256,16 @@ class SharedReferenceMap {
   RowsByPlace<C> rows_;
 };
 
+/// By the recursion of Loop's scheme or of Catmull-Clark's, and by Stam's method.
+template <class C, bool quads>
+using RecursionMap =
+    ReferenceMap<C, std::conditional_t<quads, reference::catmull_clark::SubdivisionEvaluator<C>,
+                                       reference::SubdivisionEvaluator<C>>>;
+template <class C, bool quads>
+using StamMap = ReferenceMap<
+    C, std::conditional_t<quads, reference::catmull_clark::StamEvaluator<C>, reference::StamEvaluator<C>>>;
+/// By the recursion, as fast as there is one.
+template <class C, bool quads>
+using QuickMap = std::conditional_t<quads, RecursionMap<C, true>, SharedReferenceMap<C>>;
+
 }  // namespace limitcheck::verify

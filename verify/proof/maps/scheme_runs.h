@@ -41,8 +41,7 @@ struct CutQuads {
 inline fast::LatticePoint on_side(int side, int t, int size) {
   const std::array<int, 4> i{t, size, size - t, 0}, j{0, t, size, size - t};
   const auto k = static_cast<std::size_t>(side);
-  return {0, static_cast<std::uint32_t>(i[k]), static_cast<std::uint32_t>(j[k]),
-          static_cast<std::uint32_t>(size)};
+  return lattice_point(i[k], j[k], size);
 }
 
 /// The sliding window and the borders of fans.
@@ -66,10 +65,7 @@ class QuadWindowRuns {
     window.run(prepared_, 0, depth, [&](int row, const Vertex* strip) {
       for (int i = 0; i <= size; ++i)
         for (const int below : {0, 1})
-          visit(fast::LatticePoint{0, static_cast<std::uint32_t>(i),
-                                   static_cast<std::uint32_t>(size - row - below),
-                                   static_cast<std::uint32_t>(size)},
-                strip[2 * i + below]);
+          visit(lattice_point(i, size - row - below, size), strip[2 * i + below]);
     });
   }
 
@@ -85,47 +81,39 @@ class QuadWindowRuns {
     }
   }
 
-  /// They are points of the lattice.
-  template <class Visit>
-  void centres(Visit&&) const {}
-
  private:
   CutQuads<N> cut_;
   fast::PreparedQuads<N, Surface> prepared_;
 };
 
-/// Row streaming. Runs twice, for one tangent each, see StreamRuns.
+/// Row streaming, see StreamRuns.
 template <class T, template <int> class Lane>
 class QuadStreamRuns {
  public:
-  using Frame = fast::LimitFrame<T>;
-
   /// Throws data::ArgumentError: something is semi-sharp.
   QuadStreamRuns(const data::ControlMesh& mesh, const std::vector<fast::Vec3<T>>& positions)
-      : cut_(mesh, positions), first_(cut_.quads, placed(), 0), second_(cut_.quads, placed(), 1) {}
+      : cut_(mesh, positions), rings_{Rings(cut_.quads, placed(), 0), Rings(cut_.quads, placed(), 1)} {}
   QuadStreamRuns(const QuadStreamRuns&) = delete;
   QuadStreamRuns& operator=(const QuadStreamRuns&) = delete;
 
-  bool has_patch() const { return first_.kind(0) == fast::row_stream::QuadClass::kRegular; }
+  bool has_patch() const { return rings_[0].kind(0) == fast::row_stream::QuadClass::kRegular; }
 
   /// Face 0 row by row, streamed. At depths at which only some meshes have origins near their sides, without
   /// and with these, one after the other.
   template <class Visit>
   void whole(int depth, Visit&& visit) const {
-    for (const auto& placement : placements(depth)) {
-      run_whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
-        const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input.data());
-        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), {target}).run();
+    for (const auto& placement : placements(depth))
+      run_whole(depth, visit, [&](auto lane, const Rings& rings, T* input, T* work, const auto& target) {
+        const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input);
+        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work, {target}).run();
       });
-    }
   }
   /// The same as a polynomial: a regular quad alone.
   template <class Visit>
   void patch(int depth, Visit&& visit) const {
-    run_whole(depth, visit, [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
-      const auto batch = fast::row_stream::gather_patches<T>(rings, kFace, depth, 1, input.data());
-      fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work.data(), {target})
-          .run();
+    run_whole(depth, visit, [&](auto lane, const Rings& rings, T* input, T* work, const auto& target) {
+      const auto batch = fast::row_stream::gather_patches<T>(rings, kFace, depth, 1, input);
+      fast::row_stream::generic::QuadPatch<decltype(lane)>(batch, rings.placement(), work, {target}).run();
     });
   }
   /// The sides by themselves, each from its corner on; with and without origins, too.
@@ -134,14 +122,12 @@ class QuadStreamRuns {
     const int size = 1 << depth;
     for (const auto& placement : placements(depth)) {
       for (std::int32_t side = 0; side < 4; ++side) {
-        const auto run = [&](auto& input, auto& work, auto lane, const auto& rings, const auto& target) {
-          const auto batch = fast::row_stream::gather_sides<T>(rings, {&side, 1}, depth, 1, input.data());
-          fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work.data(), {target})
-              .run_side();
+        const auto run = [&](auto lane, const Rings& rings, T* input, T* work, const auto& target) {
+          const auto batch = fast::row_stream::gather_sides<T>(rings, {&side, 1}, depth, 1, input);
+          fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work, {target}).run_side();
         };
-        const auto first = evaluate<Lane<0>>(first_, depth, 1, run),
-                   second = evaluate<Lane<1>>(second_, depth, 1, run);
-        for (int t = 0; t <= size; ++t) visit(on_side(side, t, size), frame(first, second, t));
+        const TwoRuns<T> points = evaluate(depth, 1, run);
+        for (int t = 0; t <= size; ++t) visit(on_side(side, t, size), points[t]);
       }
     }
   }
@@ -152,7 +138,7 @@ class QuadStreamRuns {
   static constexpr std::array<std::int32_t, 1> kFace{0};
 
   std::vector<Placement> placements(int depth) const {
-    std::vector<Placement> result{first_.placement()};
+    std::vector<Placement> result{rings_[0].placement()};
     if (depth > 0 && !result[0].has_local_origin(depth)) {
       result.push_back(result[0]);
       result[1].local_from = 1;
@@ -166,34 +152,26 @@ class QuadStreamRuns {
     return result;
   }
 
-  template <class Number, class Run>
-  static std::vector<T> evaluate(const Rings& rings, int depth, int rows, Run&& run) {
-    const std::ptrdiff_t stride = 6 * ((std::ptrdiff_t{1} << depth) + 1);
-    std::vector<T> out(static_cast<std::size_t>(rows * stride)),
-        input(static_cast<std::size_t>(fast::row_stream::quad_input_size(depth))),
-        work(static_cast<std::size_t>(fast::row_stream::quad_work_size(depth)));
-    T* lane = out.data();
-    run(input, work, Number{}, rings, fast::row_stream::QuadTarget<T>{&lane, stride, nullptr, nullptr});
-    return out;
-  }
-  static Frame frame(const std::vector<T>& first, const std::vector<T>& second, int point) {
-    const T *a = first.data() + 6 * point, *b = second.data() + 6 * point;
-    return {{a[0], a[1], a[2]}, {a[3], a[4], a[5]}, {b[3], b[4], b[5]}};
+  template <class Run>
+  TwoRuns<T> evaluate(int depth, int rows, Run&& run) const {
+    const int side = (1 << depth) + 1;
+    return {static_cast<std::size_t>(rows * side), [&](auto tangent, T* lane) {
+              std::vector<T> input(static_cast<std::size_t>(fast::row_stream::quad_input_size(depth))),
+                  work(static_cast<std::size_t>(fast::row_stream::quad_work_size(depth)));
+              run(Lane<tangent>{}, rings_[tangent], input.data(), work.data(),
+                  fast::row_stream::QuadTarget<T>{&lane, 6 * side, nullptr, nullptr});
+            }};
   }
   template <class Visit, class Run>
   void run_whole(int depth, Visit&& visit, Run&& run) const {
     const int size = 1 << depth;
-    const auto first = evaluate<Lane<0>>(first_, depth, size + 1, run),
-               second = evaluate<Lane<1>>(second_, depth, size + 1, run);
+    const TwoRuns<T> points = evaluate(depth, size + 1, run);
     for (int j = 0; j <= size; ++j)
-      for (int i = 0; i <= size; ++i)
-        visit(fast::LatticePoint{0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
-                                 static_cast<std::uint32_t>(size)},
-              frame(first, second, j * (size + 1) + i));
+      for (int i = 0; i <= size; ++i) visit(lattice_point(i, j, size), points[j * (size + 1) + i]);
   }
 
   CutQuads<T> cut_;
-  Rings first_, second_;
+  std::array<Rings, 2> rings_;
 };
 
 /// What is particular to the proofs of a scheme: how its kernels are run; which it has; by how much a float or double
@@ -203,7 +181,7 @@ struct TriangleRuns {
   using Window = WindowRuns<T, Surface>;
   template <class T, template <int> class Lane>
   using Stream = StreamRuns<T, Lane>;
-  static constexpr bool kHasCentres = true;
+  static constexpr bool kQuads = false;
   static bool has_stream(const data::ControlMesh&) { return true; }
   static constexpr int kTimes = 12, kTwos = 3;
   template <class T>
@@ -216,7 +194,7 @@ struct QuadRuns {
   using Window = QuadWindowRuns<T, Surface>;
   template <class T, template <int> class Lane>
   using Stream = QuadStreamRuns<T, Lane>;
-  static constexpr bool kHasCentres = false;
+  static constexpr bool kQuads = true;
   static bool has_stream(const data::ControlMesh& mesh) { return !fast::QuadMesh(mesh).semi_sharp(); }
   static constexpr int kTimes = 36, kTwos = 2;
   template <class T>
@@ -225,12 +203,19 @@ struct QuadRuns {
   }
 };
 
-/// visit(LatticePoint, Vertex) for every point that a kernel of the sliding window makes.
+/// what(TriangleRuns()) or what(QuadRuns()).
+template <class What>
+auto by_scheme(const data::ControlMesh& mesh, What&& what) {
+  return mesh.faces.are_triangles() ? what(TriangleRuns()) : what(QuadRuns());
+}
+
+/// visit(LatticePoint, Vertex) for every point that a kernel of the sliding window makes; quads have no centres.
 template <class Window, class Visit>
 void run_window(const Window& window, ProvedKernel kernel, int depth, Visit&& visit) {
   if (kernel == ProvedKernel::kSlidingWindow) window.whole(depth, visit);
   if (kernel == ProvedKernel::kCrackEdge) window.sides(depth, visit);
-  if (kernel == ProvedKernel::kCrackCentre) window.centres(visit);
+  if constexpr (requires { window.centres(visit); })
+    if (kernel == ProvedKernel::kCrackCentre) window.centres(visit);
 }
 
 /// The kernels of a scheme on one pair of triangles or one quad, down to the linear part of a limit point: position
@@ -244,9 +229,11 @@ class SchemeRuns {
   SchemeRuns(const data::ControlMesh& mesh, Points points) : mesh_(mesh), points_(std::move(points)) {}
 
   bool has(ProvedKernel kernel) {
-    if (!is_stream(kernel)) return kernel != ProvedKernel::kCrackCentre || Scheme::kHasCentres;
-    return Scheme::has_stream(mesh_) &&
-           (kernel != ProvedKernel::kRowStreamPatch || made(stream_).has_patch());
+    if (kernel == ProvedKernel::kCrackCentre) return !Scheme::kQuads;
+    if (is_stream(kernel) && !Scheme::has_stream(mesh_)) return false;
+    if (kernel != ProvedKernel::kRowStreamPatch) return true;
+    if constexpr (Scheme::kQuads) return made(stream_).has_patch();
+    return false;
   }
   /// visit(LatticePoint, const LimitFrame<T>&) for every point, always in the same order.
   template <class Visit>
@@ -255,7 +242,8 @@ class SchemeRuns {
     const auto& stream = made(stream_);
     if (kernel == ProvedKernel::kRowStream) stream.whole(depth, visit);
     if (kernel == ProvedKernel::kRowStreamEdge) stream.sides(depth, visit);
-    if (kernel == ProvedKernel::kRowStreamPatch) stream.patch(depth, visit);
+    if constexpr (Scheme::kQuads)
+      if (kernel == ProvedKernel::kRowStreamPatch) stream.patch(depth, visit);
   }
 
  private:
@@ -272,23 +260,12 @@ class SchemeRuns {
 };
 
 /// The same of whichever scheme the mesh is made for.
-template <class T, template <int> class Lane>
-class LinearRuns {
- public:
-  LinearRuns(const data::ControlMesh& mesh, const std::vector<fast::Vec3<T>>& points) {
-    if (mesh.faces.are_triangles())
-      triangles_.emplace(mesh, points);
-    else
-      quads_.emplace(mesh, points);
-  }
-  template <class Visit>
-  void run(ProvedKernel kernel, int depth, Visit&& visit) {
-    triangles_ ? triangles_->run(kernel, depth, visit) : quads_->run(kernel, depth, visit);
-  }
-
- private:
-  std::optional<SchemeRuns<TriangleRuns, T, Lane>> triangles_;
-  std::optional<SchemeRuns<QuadRuns, T, Lane>> quads_;
-};
+template <class T, template <int> class Lane, class Visit>
+void run_linear(const data::ControlMesh& mesh, const std::vector<fast::Vec3<T>>& points, ProvedKernel kernel,
+                int depth, Visit&& visit) {
+  by_scheme(mesh, [&]<class Scheme>(Scheme) {
+    SchemeRuns<Scheme, T, Lane>(mesh, points).run(kernel, depth, visit);
+  });
+}
 
 }  // namespace limitcheck::verify

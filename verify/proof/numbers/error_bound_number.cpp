@@ -55,6 +55,13 @@ double rounding_of_constant(double value, double slop) {
                    (std::abs(nearest - value) + slop) * kUpward + kUnderflow);
 }
 
+// `size` and the largest that the chosen columns can add to it.
+double upper_sum(const BoundForm& form, double size, bool values, bool errors) {
+  for (const BoundForm::Term& t : form.terms)
+    if (is_error(t.column) ? errors : values) size += std::abs(t.weight) * range(t.column);
+  return size * kUpward;
+}
+
 void commit(BoundForm& form, double size, bool single) {
   if (size == 0) return;
   if (single)
@@ -160,21 +167,13 @@ double BoundForm::constant() const {
   return !terms.empty() && terms[0].column == 0 ? terms[0].weight : 0;
 }
 double BoundForm::magnitude() const {
-  double size = slop;
-  for (const Term& t : terms) size += std::abs(t.weight) * range(t.column);
-  return size * kUpward;
+  return upper_sum(*this, slop, true, true);
 }
 double BoundForm::true_magnitude() const {
-  double size = slop;
-  for (const Term& t : terms)
-    if (!is_error(t.column)) size += std::abs(t.weight) * range(t.column);
-  return size * kUpward;
+  return upper_sum(*this, slop, true, false);
 }
 double BoundForm::error() const {
-  double size = 2 * slop;
-  for (const Term& t : terms)
-    if (is_error(t.column)) size += std::abs(t.weight) * range(t.column);
-  return size * kUpward;
+  return upper_sum(*this, 2 * slop, false, true);
 }
 
 BoundForm BoundForm::variable() {

@@ -145,33 +145,24 @@ std::int64_t power(int base, int exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-// Read off the formulas in rules-inl.h.
-TEST(Cost_RowStreamRules, AreThreeOperationsAnEdgeAndSevenAVertex) {
-  const RuleCosts rules = count_rules(CountedKernel::kRowStream);
-  EXPECT_EQ(rules.edge, (Counts{2, 0, 1, 0, 0})) << "fma(3, a + b, c + d)";
-  EXPECT_EQ(rules.vertex, (Counts{5, 1, 1, 0, 0})) << "fma(5, v, .5 * sum of six)";
-  EXPECT_EQ(rules.edge.operations(), 3);
-  EXPECT_EQ(rules.vertex.operations(), 7);
-  EXPECT_EQ(rules.limit, (Counts{9, 0, 1, 0, 0})) << "sum of six and fma; 3 for slant, 1 for across";
-  // cross product 3 and 3 fused and the bias, square 1 + 2, root 5 products and 3 fused, unit length 3 fused
-  EXPECT_EQ(rules.normal, (Counts{1, 3 + 1 + 5, 3 + 2 + 3 + 3, 0, 0}));
-}
-
-// Read off masks.h and limit.h.
-TEST(Cost_SlidingWindowRules, AreSixFlopsAnEdgeAndNineAVertex) {
-  const RuleCosts rules = count_rules(CountedKernel::kSlidingWindow);
-  EXPECT_EQ(rules.edge, (Counts{4, 2, 0, 0, 0})) << "1/2 ends + 1/8 ((c + d) - ends)";
-  EXPECT_EQ(rules.vertex, (Counts{7, 2, 0, 0, 0})) << "v + 1/16 (sum of six - 6 v)";
-  EXPECT_EQ(rules.limit, (Counts{7 + 5 + 3, 2 + 1, 0, 0, 0}));
-  // product 6 and 3; three squares of 3 and 2; their comparison 2; 1 / root; times 3, plus zero 3
-  EXPECT_EQ(rules.normal, (Counts{3 + 6 + 3, 6 + 9 + 2 + 3, 0, 1, 1}));
-}
+/// One rule on one coordinate, the limit with both tangents; and one normal from its two tangents.
+struct Rules {
+  Counts edge, vertex, limit, normal;
+};
+/// Read off the formulas in rules-inl.h: fma(3, a + b, c + d); fma(5, v, .5 * sum of six); sum of six and fma, 3 for slant, 1
+/// for across; cross product 3 and 3 fused and the bias, square 1 + 2, root 5 products and 3 fused, unit length 3 fused.
+constexpr Rules kStream{
+    {2, 0, 1, 0, 0}, {5, 1, 1, 0, 0}, {9, 0, 1, 0, 0}, {1, 3 + 1 + 5, 3 + 2 + 3 + 3, 0, 0}};
+/// Read off masks.h and limit.h: 1/2 ends + 1/8 ((c + d) - ends); v + 1/16 (sum of six - 6 v); product 6 and 3, three squares of
+/// 3 and 2, their comparison 2, 1 / root, times 3, plus zero 3.
+constexpr Rules kWindow{
+    {4, 2, 0, 0, 0}, {7, 2, 0, 0, 0}, {7 + 5 + 3, 2 + 1, 0, 0, 0}, {3 + 6 + 3, 6 + 9 + 2 + 3, 0, 1, 1}};
 
 // A level of 2^l = n turns into the next: n + 1 even rows of n + 1 vertices and n + 2 edges, n + 2 odd rows
 // of 2 (n + 1) + 1 edges, and four corner rings, 5 or 4 entries wide and one more on either side for every
 // level left. The unit is divided twice, for the rows and for the strips.
 Counts stream_by_hand(int depth) {
-  const RuleCosts rule = count_rules(CountedKernel::kRowStream);
+  const Rules& rule = kStream;
   Counts total{0, 0, 0, 2, 0};
   for (int level = 0; level < depth; ++level) {
     const std::int64_t n = power(2, level);
@@ -210,7 +201,6 @@ TEST(Cost_RowStream, RisesWithLocalOriginsByTheStripsAlone) {
 /// their ring, those of points on an edge have six neighbours along an axis.
 struct WindowByHand {
   std::array<int, 4> valence;
-  RuleCosts rule = count_rules(CountedKernel::kSlidingWindow);
   Counts total{};
 
   // corners 0 .. 3; -1: a middle corner
@@ -226,7 +216,7 @@ struct WindowByHand {
         total = total + 3 * Counts{c - 1 + 1, 2, 0, 0, 0};
       }
     }
-    total = total + 3 * (edges * rule.edge + vertices * rule.vertex);
+    total = total + 3 * (edges * kWindow.edge + vertices * kWindow.vertex);
     call(level - 1, 2 * n, {-1, -1, corners[2], corners[3]});
     call(level - 1, 2 * n, {corners[0], corners[1], -1, -1});
   }
@@ -240,7 +230,7 @@ TEST(Cost_SlidingWindow, IsItsRulesTimesItsPoints) {
       WindowByHand by_hand{valence};
       by_hand.call(depth, 1, valence);
       const std::int64_t k = power(2, depth);
-      const Counts limit = 3 * by_hand.rule.limit + by_hand.rule.normal;
+      const Counts limit = 3 * kWindow.limit + kWindow.normal;
       const KernelCost carried = count_operations(CountedKernel::kSlidingWindow, pair->mesh, depth);
       EXPECT_EQ(carried.operations, by_hand.total + ((k + 1) * (k + 1) - 4) * limit) << "depth " << depth;
       EXPECT_EQ(carried.limits, (k + 1) * (k + 1)) << "C51";
@@ -267,7 +257,7 @@ TEST(Cost_SlidingWindow, StoresTheVectorsOfTheCorrectedClosedForm) {
 // depth the rules say 4/3 (3/4 edge + 1/4 vertex) for every coordinate and a limit; the paper's rows are
 // refined again by every call (10/3 vectors a point, C53) and evaluated twice.
 TEST(Cost_PerPoint, TendsToNinetyOneFlopsForRowStreaming) {
-  const RuleCosts rule = count_rules(CountedKernel::kRowStream);
+  const Rules& rule = kStream;
   const std::int64_t four_thirds = 3 * (3 * rule.edge + rule.vertex).flops() / 3;
   const std::int64_t limit = 3 * (rule.limit.flops() + 2) + rule.normal.flops();
   EXPECT_EQ(four_thirds + limit, 91);

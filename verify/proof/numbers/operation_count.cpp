@@ -144,39 +144,4 @@ KernelCost count_operations(CountedKernel kernel, const data::ControlMesh& mesh,
   return cost;
 }
 
-RuleCosts count_rules(CountedKernel kernel) {
-  namespace stream = fast::row_stream::generic;
-  RuleCosts costs;
-  const std::array<Number, 7> x{Number(1), Number(2), Number(4), Number(7), Number(3), Number(9), Number(5)};
-  if (kernel == CountedKernel::kRowStream) {
-    const stream::Hexagon<Number> h{x[1], x[2], x[3], x[4], x[5], x[6]};
-    costs.edge = count([&] { stream::edge_rule<CountedLane>(x[0], x[1], x[2], x[3]); });
-    costs.vertex = count([&] { stream::vertex_rule<CountedLane>(x[0], stream::ring_sum(h)); });
-    costs.limit = count([&] { stream::limit_rule<CountedLane>(x[0], h); });
-    costs.normal = count([&] {
-      const Number a[3] = {x[0], x[1], x[2]}, b[3] = {x[3], x[4], x[5]};
-      stream::Vertex<CountedLane> v;
-      v.set_normal(a, b);
-      v.finish();
-    });
-    return costs;
-  }
-  std::array<fast::Vec3<Number>, 7> p;
-  for (std::size_t k = 0; k < p.size(); ++k) p[k] = {x[k], x[(k + 2) % 7], x[(3 * k + 1) % 7]};
-  const fast::AxisRing<Number> ring{p[1], p[2], p[3], p[4], p[5], p[6]};
-  const auto third = [](const OperationCounts& c) {
-    return OperationCounts{c.additions / 3, c.multiplications / 3, c.fused / 3, c.divisions / 3, c.roots / 3};
-  };
-  costs.edge = third(count([&] { fast::edge_point(p[0], p[1], p[2], p[3]); }));
-  costs.vertex = third(count([&] { fast::regular_vertex(p[0], ring); }));
-  costs.limit = third(count([&] { fast::regular_limit(p[0], ring); }));
-  const auto frame = fast::regular_limit(p[0], ring);
-  std::int64_t zero_normals = 0;
-  costs.normal = count([&] {
-    fast::LimitSurface<Number>::vertex(
-        frame, [] { return fast::Vec3<Counted<double>>{}; }, zero_normals);
-  });
-  return costs;
-}
-
 }  // namespace limitcheck::verify

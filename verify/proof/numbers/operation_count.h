@@ -57,11 +57,4 @@ enum class CountedKernel : std::uint8_t {
 /// machine: it depends on the topology and the depth alone (positions must not make tangents vanish).
 KernelCost count_operations(CountedKernel kernel, const data::ControlMesh& mesh, int depth);
 
-/// One rule on one coordinate, and one normal from its two tangents.
-struct RuleCosts {
-  OperationCounts edge, vertex, limit;  ///< per coordinate; limit: position and both tangents
-  OperationCounts normal;               ///< per point: product and unit length
-};
-RuleCosts count_rules(CountedKernel kernel);
-
 }  // namespace limitcheck::verify

@@ -55,7 +55,7 @@ inline StarWeights<verify::Residue> star_weights(int faces, bool open, VertexKin
   return verify::rational_star_weights<verify::Residue>(faces, open, kind);
 }
 /// As the double kernels have them: right to 2^-40, which is more than cosines, roots and the iteration of
-/// darts lose (quad_bounds_test.cpp).
+/// darts lose (bounds_test.cpp).
 template <>
 inline StarWeights<verify::BoundDouble> star_weights(int faces, bool open, VertexKind kind) {
   const StarWeights<double> given = star_weights<double>(faces, open, kind);

@@ -49,11 +49,15 @@ struct ResidueTables {
       }
     }
     for (int k = 1; k < kSmall; ++k) {
-      Residue& r = inverse[k];
-      r.first_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[0].n);
-      r.second_ = n_invmod(static_cast<std::uint64_t>(k), Residue::moduli_[1].n);
-      r.approximation_ = 1. / k;
+      const auto number = static_cast<std::uint64_t>(k);
+      inverse[k] = inverse_of({number, number}, k);
     }
+  }
+  static Residue inverse_of(const Residue::Pair& residue, double approximation) {
+    Residue r;
+    for (std::size_t k = 0; k < 2; ++k) r.residue_[k] = n_invmod(residue[k], Residue::moduli_[k].n);
+    r.approximation_ = 1 / approximation;
+    return r;
   }
   static const ResidueTables& get() {
     static const ResidueTables tables;
@@ -65,20 +69,15 @@ struct ResidueTables {
       throw data::ArgumentError("the proof's residues hold no root of unity of order " + std::to_string(q));
     const std::int64_t e = ((p % q) + q) % q * (Residue::kOrder / q);
     Residue r;
-    r.first_ = nmod_pow_ui(root[0], static_cast<std::uint64_t>(e), Residue::moduli_[0]);
-    r.second_ = nmod_pow_ui(root[1], static_cast<std::uint64_t>(e), Residue::moduli_[1]);
-    return r;
-  }
-  static Residue approximated(Residue r, double value) {
-    r.approximation_ = value;
+    for (std::size_t k = 0; k < 2; ++k)
+      r.residue_[k] = nmod_pow_ui(root[k], static_cast<std::uint64_t>(e), Residue::moduli_[k]);
     return r;
   }
 };
 
 Residue::Residue(int value) : approximation_(value) {
   const auto size = static_cast<std::uint64_t>(std::abs(static_cast<std::int64_t>(value)));
-  first_ = value < 0 ? moduli_[0].n - size : size;
-  second_ = value < 0 ? moduli_[1].n - size : size;
+  for (std::size_t k = 0; k < 2; ++k) residue_[k] = value < 0 ? moduli_[k].n - size : size;
 }
 
 Residue Residue::cosine(std::int64_t p, std::int64_t q) {
@@ -87,7 +86,8 @@ Residue Residue::cosine(std::int64_t p, std::int64_t q) {
   if (fresh) {
     const ResidueTables& t = ResidueTables::get();
     const double angle = 2 * std::numbers::pi * static_cast<double>(p % q) / static_cast<double>(q);
-    found->second = ResidueTables::approximated((t.turn(p, q) + t.turn(-p, q)) / Residue(2), std::cos(angle));
+    found->second = (t.turn(p, q) + t.turn(-p, q)) / Residue(2);
+    found->second.approximation_ = std::cos(angle);
   }
   return found->second;
 }
@@ -103,13 +103,10 @@ Residue Residue::power_of_two(long exponent) {
 }
 
 Residue Residue::inverse() const {
-  if (first_ == 0 || second_ == 0) throw data::ArgumentError("division by a residue of zero");
-  if (first_ < ResidueTables::kSmall && first_ == second_) return ResidueTables::get().inverse[first_];
-  Residue r;
-  r.first_ = n_invmod(first_, moduli_[0].n);
-  r.second_ = n_invmod(second_, moduli_[1].n);
-  r.approximation_ = 1 / approximation_;
-  return r;
+  const auto [first, second] = residue_;
+  if (first == 0 || second == 0) throw data::ArgumentError("division by a residue of zero");
+  if (first < ResidueTables::kSmall && first == second) return ResidueTables::get().inverse[first];
+  return ResidueTables::inverse_of(residue_, approximation_);
 }
 
 }  // namespace limitcheck::verify

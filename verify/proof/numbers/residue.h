@@ -4,6 +4,7 @@
 
 #include <flint/nmod_vec.h>
 
+#include <array>
 #include <cstdint>
 
 namespace limitcheck::verify {
@@ -26,23 +27,20 @@ class Residue {
   static constexpr std::int64_t kOrder = 4655851200;
 
   double approximation() const { return approximation_; }
-  bool is_zero() const { return first_ == 0 && second_ == 0; }
+  bool is_zero() const { return residue_ == Pair{}; }
 
   Residue& operator+=(const Residue& b) {
-    first_ = nmod_add(first_, b.first_, moduli_[0]);
-    second_ = nmod_add(second_, b.second_, moduli_[1]);
+    for (std::size_t k = 0; k < 2; ++k) residue_[k] = nmod_add(residue_[k], b.residue_[k], moduli_[k]);
     approximation_ += b.approximation_;
     return *this;
   }
   Residue& operator-=(const Residue& b) {
-    first_ = nmod_sub(first_, b.first_, moduli_[0]);
-    second_ = nmod_sub(second_, b.second_, moduli_[1]);
+    for (std::size_t k = 0; k < 2; ++k) residue_[k] = nmod_sub(residue_[k], b.residue_[k], moduli_[k]);
     approximation_ -= b.approximation_;
     return *this;
   }
   Residue& operator*=(const Residue& b) {
-    first_ = nmod_mul(first_, b.first_, moduli_[0]);
-    second_ = nmod_mul(second_, b.second_, moduli_[1]);
+    for (std::size_t k = 0; k < 2; ++k) residue_[k] = nmod_mul(residue_[k], b.residue_[k], moduli_[k]);
     approximation_ *= b.approximation_;
     return *this;
   }
@@ -54,18 +52,17 @@ class Residue {
   friend Residue operator*(Residue a, const Residue& b) { return a *= b; }
   friend Residue operator/(Residue a, const Residue& b) { return a /= b; }
   friend Residue operator-(const Residue& a) { return Residue() - a; }
-  friend bool operator==(const Residue& a, const Residue& b) {
-    return a.first_ == b.first_ && a.second_ == b.second_;
-  }
+  friend bool operator==(const Residue& a, const Residue& b) { return a.residue_ == b.residue_; }
   friend bool operator<(const Residue& a, const Residue& b) { return a.approximation_ < b.approximation_; }
   friend bool operator>(const Residue& a, const Residue& b) { return b < a; }
 
  private:
   friend struct ResidueTables;
+  using Pair = std::array<std::uint64_t, 2>;
   Residue inverse() const;
   static const nmod_t moduli_[2];
 
-  std::uint64_t first_ = 0, second_ = 0;
+  Pair residue_{};
   double approximation_ = 0;
 };
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "verify/proof/topologies/neighbourhood.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 
 #include "data/cut_out.h"
 #include "data/error.h"
 #include "data/splitmix64.h"
-#include "fast/mesh/adjacency.h"
+#include "verify/proof/topologies/corner_name.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -34,11 +32,17 @@ std::array<CornerStart, 4> corner_starts(const Adjacency& adjacency, std::int32_
            {Adjacency::prev(ac), 1}}};
 }
 
-/// Faces around the vertex of h, from its own on, until the boundary or all around.
-int faces_after(const Adjacency& adjacency, std::int32_t h) {
-  int count = 0;
-  for (std::int32_t walk = h; walk >= 0 && (count == 0 || walk != h); walk = adjacency.rotate(walk)) ++count;
-  return count;
+std::string pair_name(const Adjacency& adjacency, std::int32_t half_edge) {
+  std::string text;
+  for (const CornerStart& corner : corner_starts(adjacency, half_edge))
+    text += (text.empty() ? "" : " ") + corner_name(adjacency, corner.half_edge, corner.faces);
+  return text;
+}
+
+Neighbourhood named(Faces faces) {
+  Neighbourhood result{"", with_positions(std::move(faces))};
+  result.name = signature(result.mesh, 0);
+  return result;
 }
 
 /// Closes the fans of the four corners one after the other; false if that cannot be done in this order.
@@ -116,19 +120,7 @@ data::ControlMesh with_positions(Faces faces) {
 }
 
 std::string signature(const data::ControlMesh& mesh, std::int32_t half_edge) {
-  const Adjacency adjacency(mesh);
-  std::string text;
-  for (const CornerStart& corner : corner_starts(adjacency, half_edge)) {
-    const std::int32_t v = adjacency.origin(corner.half_edge);
-    if (!text.empty()) text += ' ';
-    if (adjacency.on_boundary(v)) {
-      const int after = faces_after(adjacency, corner.half_edge) - corner.faces;
-      text += fmt::format("{}|{}", adjacency.valence(v) - 1 - corner.faces - after, after);
-    } else {
-      text += fmt::format("{}", adjacency.valence(v));
-    }
-  }
-  return text;
+  return pair_name(Adjacency(mesh), half_edge);
 }
 
 Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge) {
@@ -152,19 +144,14 @@ Neighbourhood cut_out(const data::ControlMesh& mesh, std::int32_t half_edge) {
     faces.push_back(face);
   }
   data::split_fans(faces, number.size());
-  Neighbourhood result{"", with_positions(std::move(faces))};
-  result.name = signature(result.mesh, 0);
-  return result;
+  return named(std::move(faces));
 }
 
 std::optional<Neighbourhood> interior_pair(const std::array<int, 4>& valence) {
   std::array<int, 4> order{0, 1, 2, 3};
   do {
     std::vector<std::array<std::int32_t, 3>> faces;
-    if (!close_corners(valence, order, faces)) continue;
-    Neighbourhood result{"", with_positions(Faces(faces))};
-    result.name = signature(result.mesh, 0);
-    return result;
+    if (close_corners(valence, order, faces)) return named(Faces(faces));
   } while (std::ranges::next_permutation(order).found);
   return std::nullopt;
 }
@@ -216,17 +203,8 @@ Neighbourhood face_alone() {
 std::vector<Neighbourhood> pairs_of(const data::ControlMesh& mesh) {
   const Adjacency adjacency(mesh);
   std::map<std::string, std::int32_t> first;
-  for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h) {
-    if (adjacency.twin(h) < 0) continue;
-    std::string text;
-    for (const CornerStart& corner : corner_starts(adjacency, h)) {
-      const std::int32_t v = adjacency.origin(corner.half_edge);
-      text += fmt::format(
-          "{}{} ", adjacency.valence(v),
-          adjacency.on_boundary(v) ? fmt::format("|{}", faces_after(adjacency, corner.half_edge)) : "");
-    }
-    first.emplace(text, h);
-  }
+  for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h)
+    if (adjacency.twin(h) >= 0) first.emplace(pair_name(adjacency, h), h);
   std::vector<Neighbourhood> result;
   for (const auto& [text, h] : first) result.push_back(cut_out(mesh, h));
   return result;

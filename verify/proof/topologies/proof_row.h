@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <ctime>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace limitcheck::verify {
@@ -27,6 +28,12 @@ constexpr const char* name_of(ProvedKernel kernel) {
   constexpr std::array kNames{"sliding-window", "crack-edge",      "crack-centre",
                               "row-stream",     "row-stream-edge", "row-stream-patch"};
   return kNames[static_cast<std::size_t>(kernel)];
+}
+/// Throws std::logic_error: there is none of that name.
+inline ProvedKernel kernel_named(const std::string& name) {
+  for (const ProvedKernel kernel : kProvedKernels)
+    if (name == name_of(kernel)) return kernel;
+  throw std::logic_error("no kernel is called " + name);
 }
 constexpr bool is_stream(ProvedKernel kernel) {
   return kernel >= ProvedKernel::kRowStream;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "verify/proof/topologies/neighbourhood.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <utility>
 
 #include "data/cut_out.h"
 #include "fast/mesh/cut_mesh.h"
+#include "verify/proof/topologies/corner_name.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -62,14 +60,7 @@ std::string valences(const std::array<int, 4>& valence) {
 std::string name_of(const data::ControlMesh& mesh) {
   const fast::QuadAdjacency adjacency(mesh);
   std::string text;
-  for (std::int32_t h = 0; h < 4; ++h) {
-    const auto fan = adjacency.fan(adjacency.origin(h));
-    if (!text.empty()) text += ' ';
-    const auto before = std::ranges::find(fan, h) - fan.begin();
-    text += adjacency.on_boundary(adjacency.origin(h))
-                ? fmt::format("{}|{}", before, static_cast<std::ptrdiff_t>(fan.size()) - 1 - before)
-                : fmt::format("{}", fan.size());
-  }
+  for (std::int32_t h = 0; h < 4; ++h) text += (text.empty() ? "" : " ") + corner_name(adjacency, h, 1);
   return text;
 }
 

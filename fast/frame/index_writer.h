@@ -116,7 +116,7 @@ class IndexWriter {
     const std::int32_t f = patch_.shown(s).face;
     const FaceInRepair<Faces> face{faces_, plan_, f};
     const std::int64_t middle = layout_.interior[f];
-    write(middle, centre, face.centre());
+    write_at(middle, centre, [&] { return face.centre(); });
     write_border(face, border);
     std::int64_t at = layout_.first_triangle[f];
     for (int side = 0; side < face.sides(); ++side) {
@@ -177,57 +177,63 @@ class IndexWriter {
   /// Whether this face writes the points inside a side.
   bool owns(std::int32_t c) const { return layout_.reversed[c] == 0; }
 
-  /// The index of a point: of a face that has its own depth on all sides, or inside.
-  std::uint32_t index(PatchPoint p) const {
+  /// The index of a point that lies there: of a face that has its own depth on all sides, or inside.
+  // Inlined always: else small structs are packed for each call, which is most of what an index costs.
+  [[gnu::always_inline]] std::uint32_t index(PatchPoint p, OnSide at) const {
     const std::int32_t f = patch_.face_of(p.part);
-    const OnSide at = patch_.side_of(p);
     if (at.side >= 0) return on_side(faces_.first_side(f) + at.side, patch_.depth, at.t);
     return static_cast<std::uint32_t>(layout_.interior[f] + patch_.inside(p));
   }
+  [[gnu::always_inline]] std::uint32_t index(PatchPoint p) const { return index(p, patch_.side_of(p)); }
   /// Whether it is this part of this face that writes a point, no corner.
   bool writes(PatchPoint p, OnSide at) const {
     return !patch_.repeats(p) && (at.side < 0 || owns(faces_.first_side(patch_.face_of(p.part)) + at.side));
   }
   /// What is added to the index of a point, the second of a row, for the third, .., the last but one.
-  std::uint32_t step(PatchPoint second, std::uint32_t first) const {
-    return index({second.part, second.row, second.column + 1}) - first;
+  std::uint32_t step(PatchPoint second, OnSide at, std::uint32_t first) const {
+    const PatchPoint third{second.part, second.row, second.column + 1};
+    if (at.side < 0) return static_cast<std::uint32_t>(patch_.inside(third) - patch_.inside(second));
+    return index(third) - first;
   }
 
-  void write(std::int64_t at, const Vertex& vertex, const LatticePoint& lattice) {
+  template <class Lattice>
+  [[gnu::always_inline]] void write_at(std::int64_t at, const Vertex& vertex, Lattice&& lattice) {
     out_.vertices[at] = placed(vertex, placement_);
-    if (!out_.provenance.empty()) out_.provenance[at] = lattice;
+    if (!out_.provenance.empty()) out_.provenance[at] = lattice();
+  }
+  [[gnu::always_inline]] void write(std::int64_t at, const Vertex& vertex, PatchPoint p) {
+    write_at(at, vertex, [&] { return patch_.lattice(faces_, p); });
+  }
+  [[gnu::always_inline]] void write_end(PatchPoint p, const Vertex& vertex) {
+    const OnSide at = patch_.side_of(p);
+    const bool corner = at.side >= 0 && (at.t == 0 || at.t == 1 << patch_.depth);
+    if (!corner && writes(p, at)) write(index(p, at), vertex, p);
   }
   /// Columns from .. to of a row, those that are to be written: at(2 c) is the point in column c. All but the first and
   /// the last are of one side, or inside.
   template <class At>
   void write_row(int part, int row, int from, int to, const At& at) {
-    const auto write_end = [&](int c) {
-      const PatchPoint p{part, row, c};
-      const OnSide at_side = patch_.side_of(p);
-      const bool corner = at_side.side >= 0 && (at_side.t == 0 || at_side.t == 1 << patch_.depth);
-      if (!corner && writes(p, at_side)) write(index(p), at(2 * c), patch_.lattice(faces_, p));
-    };
-    write_end(from);
-    if (to > from) write_end(to);
+    write_end({part, row, from}, at(2 * from));
+    if (to > from) write_end({part, row, to}, at(2 * to));
     if (to - from < 2) return;
     const PatchPoint second{part, row, from + 1};
     const OnSide side = patch_.side_of(second);
     if (!writes(second, side)) return;
-    const std::uint32_t begin = index(second);
+    const std::uint32_t begin = index(second, side);
     if (side.side < 0 && out_.provenance.empty() && placement_.is_identity()) {
       Vertex* first = out_.vertices.data() + begin;
       if constexpr (std::is_same_v<At, RowPair<Real>>) {
-        if (at.step == 1)
-          return copy_vertices(&at(2 * from + 2), static_cast<std::size_t>(to - from) - 1, first,
-                               Stores::kOrdinary);
+        if (at.step == 1) {
+          std::copy_n(&at(2 * from + 2), to - from - 1, first);
+          return;
+        }
       }
       for (int c = from + 1; c < to; ++c) *first++ = at(2 * c);
       return;
     }
-    const std::uint32_t by = to - from == 2 ? 1 : step(second, begin);
+    const std::uint32_t by = to - from == 2 ? 1 : step(second, side, begin);
     for (int c = from + 1; c < to; ++c)
-      write(begin + static_cast<std::uint32_t>(c - from - 1) * by, at(2 * c),
-            patch_.lattice(faces_, {part, row, c}));
+      write(begin + static_cast<std::uint32_t>(c - from - 1) * by, at(2 * c), PatchPoint{part, row, c});
   }
 
   /// The indices of columns from .. to of a row, but of those on a side that has another depth.
@@ -235,7 +241,8 @@ class IndexWriter {
     out[0] = index({part, row, from}), out[to - from] = index({part, row, to});
     if (to - from < 2) return;
     const PatchPoint second{part, row, from + 1};
-    const std::uint32_t begin = index(second), by = to - from == 2 ? 1 : step(second, begin);
+    const OnSide side = patch_.side_of(second);
+    const std::uint32_t begin = index(second, side), by = to - from == 2 ? 1 : step(second, side, begin);
     for (int c = 1; c < to - from; ++c) out[c] = begin + static_cast<std::uint32_t>(c - 1) * by;
   }
 
@@ -269,7 +276,7 @@ class IndexWriter {
       const std::int32_t c = faces_.first_side(face.face) + side;
       if (!owns(c)) continue;
       for (int t = 1, d = face.depth(side); t < 1 << d; ++t)
-        write(on_side(c, d, t), border[side][t], face.on_side(side, t));
+        write_at(on_side(c, d, t), border[side][t], [&] { return face.on_side(side, t); });
     }
   }
   void put_triangle(std::int64_t at, std::int32_t face, Kind kind, const Triangle& triangle) {

@@ -175,7 +175,7 @@ inline LatticePoint face_point(const Grid& grid, int size, int column, int row, 
 /// What becomes of one grid of a frame. half[0] is the upper left face; half[1].face = -1 if there is
 /// none, not even a dummy. A half is a part; what is shown as a whole is one more, with the rows and columns of half[0].
 struct LoopPatch {
-  static constexpr int kFaces = 2, kWhole = 2;
+  static constexpr int kWhole = 2;
 
   Half half[2];
   int depth = 0;
@@ -184,14 +184,17 @@ struct LoopPatch {
   int k() const { return 1 << depth; }
   bool full() const { return half[0].display == Display::kStrips && half[1].display == Display::kStrips; }
   RowBlock block(int part) const { return {k(), part != kWhole}; }
+  std::int32_t last_face() const { return half[1].face; }
+  /// How many faces are shown() apart.
+  int faces() const { return full() ? 1 : 2; }
   /// Which of the faces a part belongs to, or begins with; and its first part.
   static int shown_of(int part) { return part == 1 ? 1 : 0; }
   static int first_part(int s) { return s; }
   std::int32_t face_of(int part) const { return half[shown_of(part)].face; }
   int edge_of(int s) const { return half[s].edge; }
   ShownFace shown(int s) const {
-    if (!full()) return {half[s].face, half[s].display, true, false, false, k()};
-    return s == 0 ? ShownFace{half[0].face, Display::kStrips, false, false, true, k()} : ShownFace{};
+    const bool whole = full();
+    return {half[s].face, half[s].display, !whole, false, whole, k()};
   }
   /// The number of points of its window or lattice.
   std::int64_t window_points() const {
@@ -209,7 +212,7 @@ struct LoopPatch {
     const std::array<int, 2> at = half[s].beside(k(), side, t);
     return {s, at[0], at[1]};
   }
-  OnSide side_of(PatchPoint p) const {
+  [[gnu::always_inline]] OnSide side_of(PatchPoint p) const {
     const int edge = half[p.part].edge;
     if (p.row + p.column == k()) return {edge, p.column};
     if (p.row == 0) return {(edge + 1) % 3, k() - p.column};
@@ -254,7 +257,7 @@ inline ShownFace shown_face(const LoopFaces& /*faces*/, std::int32_t f, int dept
 
 /// The room that a face takes in a draw list.
 template <class Faces>
-DrawSize draw_size(const ShownFace& shown, const Faces& faces, const CrackPlan& plan) {
+inline DrawSize draw_size(const ShownFace& shown, const Faces& faces, const CrackPlan& plan) {
   const FaceInRepair<Faces> face{faces, plan, shown.face};
   switch (shown.display) {
     case Display::kStrips:
@@ -286,9 +289,9 @@ struct PatchCounts {
   std::int64_t limit_points = 0;  // evaluated: rows, each once, the borders of repaired faces, centres
 };
 template <class Patch, class Faces>
-PatchCounts count(const Patch& patch, const Faces& faces, const CrackPlan& plan) {
+inline PatchCounts count(const Patch& patch, const Faces& faces, const CrackPlan& plan) {
   PatchCounts counts{{}, 0, patch.window_points()};
-  for (int s = 0; s < Patch::kFaces; ++s) {
+  for (int s = 0, end = patch.faces(); s < end; ++s) {
     const ShownFace shown = patch.shown(s);
     const DrawSize size = draw_size(shown, faces, plan);
     counts.size = counts.size + size;
@@ -302,9 +305,9 @@ PatchCounts count(const Patch& patch, const Faces& faces, const CrackPlan& plan)
 
 /// The room that a patch takes in a draw list.
 template <class Patch, class Faces>
-DrawSize draw_size(const Patch& patch, const Faces& faces, const CrackPlan& plan) {
+inline DrawSize draw_size(const Patch& patch, const Faces& faces, const CrackPlan& plan) {
   DrawSize size;
-  for (int s = 0; s < Patch::kFaces; ++s) size = size + draw_size(patch.shown(s), faces, plan);
+  for (int s = 0, end = patch.faces(); s < end; ++s) size = size + draw_size(patch.shown(s), faces, plan);
   return size;
 }
 

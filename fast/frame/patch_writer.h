@@ -17,26 +17,26 @@ namespace limitcheck::fast {
 /// The block of a face, one after the other in that of its patch: its parts (strips; the corners alone where it has
 /// none), its parts and the border (stitched), or the centre and the border (fan).
 template <class Faces>
-std::int32_t block_size(const ShownFace& shown, const Faces& faces, const CrackPlan& plan) {
-  const FaceInRepair<Faces> face{faces, plan, shown.face};
-  const std::int32_t parts = shown.parts * shown.block().size();
+inline std::int32_t block_size(const ShownFace& shown, const Faces& faces, const CrackPlan& plan) {
+  const auto border = [&] { return FaceInRepair<Faces>{faces, plan, shown.face}.border(); };
   switch (shown.display) {
     case Display::kStrips:
-      return shown.parts == 0 ? face.sides() : parts;
+      return shown.parts == 0 ? faces.sides(shown.face) : shown.parts * shown.block().size();
     case Display::kStitch:
-      return parts + face.border();
+      return shown.parts * shown.block().size() + border();
     case Display::kFan:
-      return 1 + face.border();
+      return 1 + border();
     default:
       return 0;
   }
 }
 
 template <class Patch, class Faces>
-PatchWanted wanted_patch(const Grid& grid, const Patch& patch, const Faces& faces, const CrackPlan& plan) {
+inline PatchWanted wanted_patch(const Grid& grid, const Patch& patch, const Faces& faces,
+                                const CrackPlan& plan) {
   PatchWanted wanted{{grid, {}, {}}, 0, true};
   std::size_t edges = 0;
-  for (int s = 0; s < Patch::kFaces; ++s) {
+  for (int s = 0, end = patch.faces(); s < end; ++s) {
     const ShownFace shown = patch.shown(s);
     wanted.key.display[static_cast<std::size_t>(s)] = shown.display;
     wanted.size += block_size(shown, faces, plan);
@@ -51,27 +51,37 @@ PatchWanted wanted_patch(const Grid& grid, const Patch& patch, const Faces& face
 
 /// Adds the calls that draw a patch whose block begins at vertex `base`.
 template <class Patch, class Faces>
-void add_patch_draws(const Patch& patch, const Faces& faces, const CrackPlan& plan, std::int64_t base,
-                     IndexForm form, PatchIndices& patterns, std::vector<std::uint32_t>& indices,
-                     std::vector<PatchDraw>& out) {
-  for (int s = 0; s < Patch::kFaces; ++s) {
+[[gnu::always_inline]] inline void add_patch_draws(const Patch& patch, const Faces& faces,
+                                                   const CrackPlan& plan, std::int64_t base, IndexForm form,
+                                                   PatchIndices& patterns,
+                                                   std::vector<std::uint32_t>& indices,
+                                                   std::vector<PatchDraw>& out) {
+  for (int s = 0, end = patch.faces(); s < end; ++s) {
     const ShownFace shown = patch.shown(s);
-    if (shown.display == Display::kNothing) continue;
     const std::int32_t size = block_size(shown, faces, plan);
-    const bool whole = shown.display == Display::kStrips && shown.parts > 0;
-    const IndexPattern pattern = whole ? patterns.strips(shown, patch.depth, form, indices)
-                                 : shown.display == Display::kFan ? patterns.fan(size - 1, indices)
-                                 : shown.display == Display::kStitch
-                                     ? patterns.stitched(patch, s, faces, plan, indices)
-                                     : patterns.corners(size, indices);
-    const Kind kind = shown.display == Display::kFan      ? Kind::kFan
-                      : shown.display == Display::kStitch ? Kind::kStitched
-                                                          : patch.kind;
-    out.push_back({base, pattern.first, pattern.count, size, pattern.triangles, pattern.triangles, shown.face,
-                   shown.face, whole ? form : IndexForm::kTriangles, kind,
-                   static_cast<std::int8_t>(patch.depth)});
-    if constexpr (std::is_same_v<Patch, LoopPatch>)
-      if (shown.both_halves) out.back().split /= 2, out.back().face_after = patch.half[1].face;
+    IndexPattern pattern;
+    IndexForm of = IndexForm::kTriangles;
+    Kind kind = patch.kind;
+    switch (shown.display) {
+      case Display::kNothing:
+        continue;
+      case Display::kStrips:
+        of = shown.parts > 0 ? form : IndexForm::kTriangles;
+        pattern = shown.parts > 0 ? patterns.strips(shown, patch.depth, form, indices)
+                                  : patterns.corners(size, indices);
+        break;
+      case Display::kFan:
+        kind = Kind::kFan;
+        pattern = patterns.fan(size - 1, indices);
+        break;
+      case Display::kStitch:
+        kind = Kind::kStitched;
+        pattern = patterns.stitched(patch, s, faces, plan, indices);
+    }
+    const bool pair = shown.both_halves;
+    out.push_back({base, pattern.first, pattern.count, size, pattern.triangles,
+                   pair ? pattern.triangles / 2 : pattern.triangles, shown.face,
+                   pair ? patch.last_face() : shown.face, of, kind, static_cast<std::int8_t>(patch.depth)});
     base += size;
   }
 }

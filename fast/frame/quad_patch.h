@@ -24,8 +24,6 @@ inline std::int64_t inner_points(const QuadFaces& /*faces*/, const ShownFace& sh
 
 /// What becomes of a face that is displayed. Its parts are those of the face.
 struct QuadPatch {
-  static constexpr int kFaces = 1;
-
   ShownFace face;
   int depth = 0;
   Kind kind = Kind::kPair;
@@ -33,6 +31,8 @@ struct QuadPatch {
   /// The corners of a face by themselves: what a face that was cut shows at depth 0.
   bool corners_only() const { return face.display == Display::kStrips && face.parts == 0; }
   RowBlock block(int /*part*/) const { return face.block(); }
+  std::int32_t last_face() const { return face.face; }
+  static constexpr int faces() { return 1; }
   static int shown_of(int /*part*/) { return 0; }
   static int first_part(int /*s*/) { return 0; }
   std::int32_t face_of(int /*part*/) const { return face.face; }
@@ -49,7 +49,7 @@ struct QuadPatch {
     const PartPoint p = faces.beside(face.face, depth, side, t);
     return {p.part, face.block().k - p.j, p.i};
   }
-  OnSide side_of(PatchPoint p) const {
+  [[gnu::always_inline]] OnSide side_of(PatchPoint p) const {
     const int m = face.block().k, i = p.column, j = m - p.row;
     if (face.cut) {
       if (j == 0) return {p.part, i};

@@ -120,8 +120,8 @@ Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool 
 ///   ring      the points that the tangents sum, v the vertex
 ///   farthest  no point of the ring is farther from v, if that is known: it saves looking
 template <class W, class Substitute>
-Vec3<W> tangent_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
-                       bool& degenerate, double farthest, Substitute&& substitute) {
+inline Vec3<W> tangent_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
+                              bool& degenerate, double farthest, Substitute&& substitute) {
   using std::sqrt;
   const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
   const Vec3<W> normal = cross(limit.du, limit.dv);
@@ -135,9 +135,10 @@ Vec3<W> tangent_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<c
   return degenerate ? substitute() : W(1) / size * normal;
 }
 template <class W>
-Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open,
-                      bool& degenerate, double farthest = std::numeric_limits<double>::infinity(),
-                      VertexKind kind = VertexKind::kPlain) {
+inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
+                             bool open, bool& degenerate,
+                             double farthest = std::numeric_limits<double>::infinity(),
+                             VertexKind kind = VertexKind::kPlain) {
   return tangent_normal(limit, v, ring, degenerate, farthest,
                         [&] { return substitute_normal(v, ring, open, kind); });
 }

@@ -43,11 +43,11 @@ struct Counting : NoProbe {
 
 /// The six neighbours of line[i] in a row between two others, along the row, and along the pair's diagonal.
 template <class N>
-AxisRing<N> along_row(const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, int i) {
+inline AxisRing<N> along_row(const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, int i) {
   return {line[i + 1], above[i + 1], above[i], line[i - 1], below[i - 1], below[i]};
 }
 template <class N>
-AxisRing<N> along_diagonal(const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, int i) {
+inline AxisRing<N> along_diagonal(const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, int i) {
   return {above[i + 1], above[i], line[i - 1], below[i - 1], below[i], line[i + 1]};
 }
 
@@ -55,8 +55,8 @@ AxisRing<N> along_diagonal(const Vec3<N>* line, const Vec3<N>* above, const Vec3
 /// null: there is no row.
 ///   diagonal   the column where the pair's diagonal meets it
 template <class N, class Vertex>
-void refine_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
-                const CornerRing<N, Vertex>& left, const CornerRing<N, Vertex>& right, Vec3<N>* out) {
+inline void refine_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
+                       const CornerRing<N, Vertex>& left, const CornerRing<N, Vertex>& right, Vec3<N>* out) {
   out[0] = subdivide_corner(line[0], left);
   out[2 * n] = subdivide_corner(line[n], right);
   if (above == nullptr || below == nullptr) {
@@ -84,8 +84,8 @@ void refine_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, 
 
 /// The apexes over the n edges of a line: before the first and after the last there is a face, or none.
 template <class N>
-void refine_apexes(int n, const Vec3<N>* line, const Vec3<N>* apex, bool has_before, const Vec3<N>& before,
-                   bool has_after, const Vec3<N>& after, Vec3<N>* out) {
+inline void refine_apexes(int n, const Vec3<N>* line, const Vec3<N>* apex, bool has_before,
+                          const Vec3<N>& before, bool has_after, const Vec3<N>& after, Vec3<N>* out) {
   out[0] = has_before ? edge_point(line[0], apex[0], line[1], before) : midpoint(line[0], apex[0]);
   for (int i = 1; i < n; ++i) {
     out[2 * i - 1] = edge_point(apex[i - 1], line[i], line[i - 1], apex[i]);

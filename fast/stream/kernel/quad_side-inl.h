@@ -135,7 +135,13 @@ class QuadSideStream {
       QuadLimitRow<N> points(row(depth_, -1), row(depth_, 0), row(depth_, 1), 1, centre_, limit_.unit());
       return scatter_row<N>(points, size, a, b, to);
     }
-    scatter_points<N>([&](int k, Vertex<N>& v) HWY_ATTR { point(k, v); }, size, a, b, to);
+    const Vertex<N> last = b;
+    for (int k = 0; k < size; k += 2) {
+      if (k > 0) point(k, a);
+      point(k + 1, b);
+      to.couple(k, a, b);
+    }
+    to.vertex(size, last);
   }
 
  private:

@@ -7,7 +7,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -45,21 +44,6 @@ void make_room(FrameEngine<Real>& s, std::size_t first, std::size_t last, DrawLi
   out.vertices.resize(static_cast<std::size_t>(s.offsets.back().vertices));
   out.draws.resize(static_cast<std::size_t>(s.offsets.back().draws));
   out.provenance.resize(s.options.provenance ? out.vertices.size() : 0);
-}
-
-// Sizes an indexed mesh for the frame; returns the number of its vertices.
-template <class Real>
-std::int64_t make_room(FrameEngine<Real>& s, IndexedMesh<Real>& out) {
-  const DrawSize size = s.measure_index();
-  if (size.vertices > std::numeric_limits<std::uint32_t>::max())
-    throw data::ArgumentError("frame: " + std::to_string(size.vertices) +
-                              " vertices are more than 32-bit indices reach");
-  out.vertices.resize(static_cast<std::size_t>(size.vertices));
-  out.provenance.resize(s.options.provenance ? out.vertices.size() : 0);
-  out.triangles.resize(static_cast<std::size_t>(size.triangles));
-  out.triangle_face.resize(out.triangles.size());
-  out.triangle_kind.resize(out.triangles.size());
-  return size.vertices;
 }
 
 // Hands over the draws of s.part; returns how many vertices they have, in a frame that has had `before`.
@@ -194,9 +178,8 @@ FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, DrawList<Rea
 template <class Real>
 FrameStats Engine<Real>::frame(std::span<const std::int32_t> depth, IndexedMesh<Real>& out) {
   return run_frame(*state_, depth, [&] {
-    const std::int64_t vertices = make_room(*state_, out);
     state_->write_index(out);
-    return vertices;
+    return static_cast<std::int64_t>(out.vertices.size());
   });
 }
 

@@ -73,9 +73,8 @@ struct FrameEngine : FrameState {
   virtual void prepare() = 0;
   /// Evaluates patches first .. last - 1 into a draw list that has room for them, offsets[] saying where.
   virtual void draw(std::size_t first, std::size_t last, DrawList<Real>& out) = 0;
-  /// How much an indexed mesh of this frame takes (vertices, triangles); then writes it to where there is
-  /// room.
-  virtual DrawSize measure_index() = 0;
+  /// Evaluates all patches into an indexed mesh.
+  ///   throws   data::ArgumentError: more vertices than 32-bit indices reach
   virtual void write_index(IndexedMesh<Real>& out) = 0;
   /// The patches of this frame, in their order; then writes those that are fresh to their places, and adds
   /// the calls that draw them all.

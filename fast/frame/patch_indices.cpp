@@ -7,29 +7,21 @@ namespace limitcheck::fast {
 
 namespace {
 
-// The rows of a half from `from` on, `count` of them; at(row, column) is the index of a point.
+// The triangles between the rows of a block; at(row, column) is the index of a point.
 template <class At>
-void add_half(int from, int count, IndexForm form, At&& at, std::vector<std::uint32_t>& out) {
-  for (int row = from; row < from + count; ++row) {
-    const int end = from + count - (row - from);  // the last column of the row
+void add_rows(const RowBlock& block, IndexForm form, At&& at, std::vector<std::uint32_t>& out) {
+  for (int row = 0; row < block.k; ++row) {
+    const int last = block.last(row), below = block.last(row + 1);
     if (form == IndexForm::kStrips) {
-      for (int c = from; c < end; ++c) out.insert(out.end(), {at(row, c), at(row + 1, c)});
-      out.insert(out.end(), {at(row, end), kRestartIndex});
+      for (int c = 0; c <= below; ++c) out.insert(out.end(), {at(row, c), at(row + 1, c)});
+      if (below < last) out.push_back(at(row, last));
+      out.push_back(kRestartIndex);
       continue;
     }
-    for (int c = from; c < end; ++c) {
+    for (int c = 0; c < last; ++c) {
       out.insert(out.end(), {at(row, c), at(row + 1, c), at(row, c + 1)});
-      if (c + 1 < end) out.insert(out.end(), {at(row, c + 1), at(row + 1, c), at(row + 1, c + 1)});
+      if (c < below) out.insert(out.end(), {at(row, c + 1), at(row + 1, c), at(row + 1, c + 1)});
     }
-  }
-}
-
-// The cells of a part between rows j and j - 1.
-void add_cells(PartBlock block, int part, int from, int to, int j, std::vector<std::uint32_t>& out) {
-  for (int i = from; i < to; ++i) {
-    const std::uint32_t a = block.at({part, i, j}), b = block.at({part, i, j - 1}),
-                        c = block.at({part, i + 1, j});
-    out.insert(out.end(), {a, b, c, c, b, block.at({part, i + 1, j - 1})});
   }
 }
 
@@ -47,12 +39,6 @@ IndexPattern& at_least(std::vector<IndexPattern>& list, int number) {
   const auto n = static_cast<std::size_t>(number);
   if (list.size() <= n) list.resize(n + 1);
   return list[n];
-}
-
-std::vector<int> stitched_key(int depth, int edge, const auto& face) {
-  std::vector<int> key{depth, edge};
-  for (int side = 0; side < face.sides(); ++side) key.push_back(face.depth(side));
-  return key;
 }
 
 // The outer ring of a face whose border points begin with number `border`: inner(side, t) is the index of point t of the
@@ -77,25 +63,28 @@ std::int32_t add_ring(const FaceInRepair<Faces>& face, int depth, std::int32_t b
 
 }  // namespace
 
-IndexPattern PatchIndices::grid(int depth, IndexForm form, std::vector<std::uint32_t>& out) {
-  return once(grids_[depth][static_cast<std::size_t>(form)], out, [&] {
-    const int k = 1 << depth;
-    const GridBlock block{k};
-    add_half(
-        0, k, form, [&](int r, int c) { return block.at(r, c); }, out);
-    add_half(
-        0, k, form, [&](int r, int c) { return block.at(k - r, k - c); }, out);
-    return 2 * k * k;
-  });
-}
-
-IndexPattern PatchIndices::half(int depth, IndexForm form, std::vector<std::uint32_t>& out) {
-  return once(halves_[depth][static_cast<std::size_t>(form)], out, [&] {
-    const int k = 1 << depth;
-    const HalfBlock block{k};
-    add_half(
-        0, k, form, [&](int r, int c) { return block.at(r, c); }, out);
-    return k * k;
+IndexPattern PatchIndices::strips(const ShownFace& shown, int depth, IndexForm form,
+                                  std::vector<std::uint32_t>& out) {
+  const RowBlock block = shown.block();
+  const auto of_form = static_cast<std::size_t>(form);
+  const auto add = [&](const RowBlock& rows, auto&& at) {
+    add_rows(rows, form, at, out);
+    return static_cast<std::int32_t>(rows.strips().triangles);
+  };
+  if (shown.both_halves) {
+    return once(grids_[depth][of_form], out, [&] {
+      const int k = block.k;
+      return add({k, true}, [&](int r, int c) { return block.at(r, c); }) +
+             add({k, true}, [&](int r, int c) { return block.at(k - r, k - c); });
+    });
+  }
+  auto& known =
+      block.triangle ? halves_[depth][of_form] : quads_[{shown.parts, block.k, static_cast<int>(form)}];
+  return once(known, out, [&] {
+    std::int32_t triangles = 0;
+    for (int part = 0; part < shown.parts; ++part)
+      triangles += add(block, [&](int r, int c) { return part * block.size() + block.at(r, c); });
+    return triangles;
   });
 }
 
@@ -107,39 +96,6 @@ IndexPattern PatchIndices::fan(int border, std::vector<std::uint32_t>& out) {
   });
 }
 
-IndexPattern PatchIndices::stitched(const Half& half, int depth, const LoopFaces& faces,
-                                    const CrackPlan& plan, std::vector<std::uint32_t>& out) {
-  const FaceInRepair<LoopFaces> face{faces, plan, half.face};
-  return once(stitched_[stitched_key(depth, half.edge, face)], out, [&] {
-    const int k = 1 << depth;
-    const HalfBlock block{k};
-    add_half(
-        1, k - 3, IndexForm::kTriangles, [&](int r, int c) { return block.at(r, c); }, out);
-    const auto inner = [&](int e, int t) {
-      const auto [row, column] = half.beside(k, e, t);
-      return block.at(row, column);
-    };
-    return (k - 3) * (k - 3) + add_ring(face, depth, block.size(), inner, out);
-  });
-}
-
-IndexPattern PatchIndices::quads(int parts, int cells, IndexForm form, std::vector<std::uint32_t>& out) {
-  return once(quads_[{parts, cells, static_cast<int>(form)}], out, [&] {
-    for (int part = 0; part < parts; ++part) {
-      for (int j = cells; j > 0; --j) {
-        if (form == IndexForm::kTriangles) {
-          add_cells({cells}, part, 0, cells, j, out);
-          continue;
-        }
-        for (int i = 0; i <= cells; ++i)
-          for (const int row : {j, j - 1}) out.push_back(PartBlock{cells}.at({part, i, row}));
-        out.push_back(kRestartIndex);
-      }
-    }
-    return 2 * parts * cells * cells;
-  });
-}
-
 IndexPattern PatchIndices::corners(int sides, std::vector<std::uint32_t>& out) {
   return once(at_least(corners_, sides), out, [&] {
     for (std::uint32_t k = 1; k + 1 < static_cast<std::uint32_t>(sides); ++k)
@@ -148,21 +104,34 @@ IndexPattern PatchIndices::corners(int sides, std::vector<std::uint32_t>& out) {
   });
 }
 
-IndexPattern PatchIndices::stitched(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan,
+template <class Patch, class Faces>
+IndexPattern PatchIndices::stitched(const Patch& patch, int s, const Faces& faces, const CrackPlan& plan,
                                     std::vector<std::uint32_t>& out) {
-  const FaceInRepair<QuadFaces> face{faces, plan, patch.face};
-  return once(stitched_[stitched_key(patch.depth, -1, face)], out, [&] {
-    const int parts = faces.parts(patch.face);
-    const PartBlock block{faces.part_size(patch.depth)};
-    const InnerCells cells(patch, faces);
-    for (int part = 0; part < parts; ++part)
-      for (int j = cells.to; j > cells.from; --j) add_cells(block, part, cells.from, cells.to, j, out);
-    const auto inner = [&](int side, int t) {
-      return block.at(faces.beside(patch.face, patch.depth, side, t));
+  const ShownFace shown = patch.shown(s);
+  const FaceInRepair<Faces> face{faces, plan, shown.face};
+  std::vector<int> key{patch.depth, patch.edge_of(s)};
+  for (int side = 0; side < face.sides(); ++side) key.push_back(face.depth(side));
+  return once(stitched_[key], out, [&] {
+    const auto index = [&](PatchPoint p) {
+      return (p.part - Patch::first_part(s)) * shown.block().size() + shown.block().at(p.row, p.column);
     };
-    return 2 * parts * cells.count() * cells.count() +
-           add_ring(face, patch.depth, parts * block.size(), inner, out);
+    const PatchPoint first = shown.first_inner(0);
+    for (int part = Patch::first_part(s), k = 0; k < shown.parts; ++part, ++k)
+      add_rows(
+          shown.inner(), IndexForm::kTriangles,
+          [&](int r, int c) {
+            return index({part, first.row + r, first.column + c});
+          },
+          out);
+    const auto inner = [&](int side, int t) { return index(patch.beside(faces, s, side, t)); };
+    return static_cast<std::int32_t>(shown.parts * shown.inner().strips().triangles) +
+           add_ring(face, patch.depth, shown.parts * shown.block().size(), inner, out);
   });
 }
+
+template IndexPattern PatchIndices::stitched(const LoopPatch&, int, const LoopFaces&, const CrackPlan&,
+                                             std::vector<std::uint32_t>&);
+template IndexPattern PatchIndices::stitched(const QuadPatch&, int, const QuadFaces&, const CrackPlan&,
+                                             std::vector<std::uint32_t>&);
 
 }  // namespace limitcheck::fast

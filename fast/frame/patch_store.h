@@ -3,6 +3,7 @@
 // what they showed when they were written there, and how their points get there.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -101,12 +102,12 @@ struct PatchTarget {
   void put(std::uint32_t at, const SurfaceVertex<Real>* from, std::size_t count) const {
     if constexpr (std::is_same_v<Real, float>)
       if (compact != nullptr) return compact_row(from, count, compact + at);
-    copy_vertices(from, count, vertices + at, Stores::kOrdinary);
+    std::copy_n(from, count, vertices + at);
   }
   void put(std::uint32_t at, const SurfaceVertex<Real>& vertex) const {
     if constexpr (std::is_same_v<Real, float>)
       if (compact != nullptr) return void(compact[at] = compacted(vertex));
-    copy_vertices(&vertex, 1, vertices + at, Stores::kOrdinary);
+    vertices[at] = vertex;
   }
 };
 

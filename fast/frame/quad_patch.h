@@ -2,6 +2,7 @@
 // What becomes of one control face of Catmull-Clark's scheme in a frame, and the room it takes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,128 +11,126 @@
 
 namespace limitcheck::fast {
 
-/// A face that is displayed.
+/// A face with its parts: row r of a part is the one at j = m - r, m = part_size(depth).
+inline ShownFace shown_face(const QuadFaces& faces, std::int32_t f, int depth, Display display) {
+  const bool cut = faces.cut();
+  return {f, display, false, cut, false, 1 << depth, cut && depth == 0 ? 0 : faces.parts(f)};
+}
+inline std::int64_t inner_points(const QuadFaces& /*faces*/, const ShownFace& shown) {
+  const std::int64_t m = shown.block().k;
+  if (!shown.cut) return (m - 1) * (m - 1);
+  return m > 0 ? 1 + shown.parts * m * (m - 1) : 0;
+}
+
+/// What becomes of a face that is displayed. Its parts are those of the face.
 struct QuadPatch {
-  std::int32_t face = -1;
+  ShownFace face;
   int depth = 0;
-  Display display = Display::kNothing;
-};
+  Kind kind = Kind::kPair;
 
-inline QuadPatch patch_of(const QuadFaces& /*faces*/, const Grid& grid, const CrackPlan& plan) {
-  return {grid.face0, grid.depth, plan.display[grid.face0]};
-}
-
-/// The corners of a face by themselves: what a face that was cut shows at depth 0.
-inline bool corners_only(const QuadPatch& patch, const QuadFaces& faces) {
-  return patch.display == Display::kStrips && faces.part_size(patch.depth) == 0;
-}
-
-/// All points of a face: part by part, row by row from v = 0.
-template <class Real>
-struct FacePoints {
-  std::vector<SurfaceVertex<Real>> points;
-  int size = 0;  // cells along a side of a part
-
-  void resize(int parts, int cells) {
-    size = cells;
-    points.resize(static_cast<std::size_t>(parts) * static_cast<std::size_t>((cells + 1) * (cells + 1)));
+  /// The corners of a face by themselves: what a face that was cut shows at depth 0.
+  bool corners_only() const { return face.display == Display::kStrips && face.parts == 0; }
+  RowBlock block(int /*part*/) const { return face.block(); }
+  std::int32_t last_face() const { return face.face; }
+  static constexpr int faces() { return 1; }
+  static int shown_of(int /*part*/) { return 0; }
+  static int first_part(int /*s*/) { return 0; }
+  std::int32_t face_of(int /*part*/) const { return face.face; }
+  static int edge_of(int /*s*/) { return -1; }
+  const ShownFace& shown(int /*s*/) const { return face; }
+  std::int64_t window_points() const {
+    return face.display == Display::kFan ? 0 : std::int64_t{face.parts} * face.block().size();
   }
-  std::size_t index(PartPoint p) const {
-    return static_cast<std::size_t>((p.part * (size + 1) + p.j) * (size + 1) + p.i);
+
+  LatticePoint lattice(const QuadFaces& faces, PatchPoint p) const {
+    return faces.lattice(face.face, depth, {p.part, p.column, face.block().k - p.row});
   }
-  SurfaceVertex<Real>& at(PartPoint p) { return points[index(p)]; }
-  const SurfaceVertex<Real>& at(PartPoint p) const { return points[index(p)]; }
-};
-
-/// Side c of a face at a depth of its own, 2^depth + 1 points.
-///   limit(v)                of a vertex of the mesh of quads
-///   edge(h, depth, out)     evaluates a half-edge of that mesh
-template <class Real, class Limit, class Edge>
-void evaluate_side(const QuadFaces& faces, std::int32_t c, int depth, Limit&& limit, Edge&& edge,
-                   std::vector<SurfaceVertex<Real>>& out) {
-  out.resize((std::size_t{1} << depth) + 1);
-  if (!faces.cut()) {
-    edge(c, depth, out.data());
-  } else if (depth == 0) {
-    out[0] = limit(faces.vertex(c)), out[1] = limit(faces.vertex(faces.next(c)));
-  } else {
-    edge(faces.first_half(c), depth - 1, out.data());
-    edge(faces.second_half(c), depth - 1, out.data() + (std::size_t{1} << (depth - 1)));
+  PatchPoint beside(const QuadFaces& faces, int /*s*/, int side, int t) const {
+    const PartPoint p = faces.beside(face.face, depth, side, t);
+    return {p.part, face.block().k - p.j, p.i};
   }
-}
-
-/// The centre of a face: the limit point in its middle, or the mean of its corners, with the normal of the
-/// limit.
-///   position(v), limit(v)   of a vertex of the mesh of quads
-///   middle_of_quad()        of a face that is a quad itself
-template <class Real, class Position, class Limit, class Middle>
-SurfaceVertex<Real> face_centre(const QuadFaces& faces, std::int32_t f, FanCentre centre, Position&& position,
-                                Limit&& limit, Middle&& middle_of_quad) {
-  const std::int32_t first = faces.first_side(f);
-  SurfaceVertex<Real> middle = faces.cut() ? limit(faces.mesh->adjacency.corner(first, 2)) : middle_of_quad();
-  if (centre == FanCentre::kLimit) return middle;
-  Vec3<double> sum{};
-  for (int k = 0; k < faces.sides(f); ++k) {
-    const std::int32_t v = faces.vertex(first + k);
-    sum = sum + widen<Real>(centre == FanCentre::kFlatControl ? position(v) : limit(v).position);
-  }
-  middle.position = narrow<Real>(1. / faces.sides(f) * sum);
-  return middle;
-}
-
-/// The cells of a stitched face that are displayed by themselves: of each part `from` to `to` in both
-/// directions. The outer ring is left out.
-struct InnerCells {
-  InnerCells(const QuadPatch& patch, const QuadFaces& faces)
-      : from(1), to(faces.part_size(patch.depth) - (faces.cut() ? 0 : 1)) {}
-  int count() const { return to - from; }
-  int from, to;
-};
-
-/// Triangles of a face, and the room that it takes in a draw list.
-inline DrawSize draw_size(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan) {
-  const std::int64_t parts = faces.parts(patch.face), m = faces.part_size(patch.depth),
-                     sides = faces.sides(patch.face);
-  if (corners_only(patch, faces)) return {sides, 1, sides - 2};
-  const FaceInRepair<QuadFaces> face{faces, plan, patch.face};
-  switch (patch.display) {
-    case Display::kStrips:
-      return {parts * m * 2 * (m + 1), parts * m, parts * 2 * m * m};
-    case Display::kFan:
-      return {face.border() + 2, 1, face.border()};
-    case Display::kStitch: {
-      const std::int64_t inner = InnerCells(patch, faces).count(),
-                         ring = face.ring_triangles(std::int64_t{1} << patch.depth);
-      return {parts * inner * 2 * (inner + 1) + 3 * ring, parts * inner + 1,
-              parts * 2 * inner * inner + ring};
+  [[gnu::always_inline]] OnSide side_of(PatchPoint p) const {
+    const int m = face.block().k, i = p.column, j = m - p.row;
+    if (face.cut) {
+      if (j == 0) return {p.part, i};
+      if (i == 0) return {(p.part == 0 ? face.parts : p.part) - 1, 2 * m - j};
+      return {-1, 0};
     }
-    default:
-      return {};
+    if (j == 0) return {0, i};
+    if (i == m) return {1, j};
+    if (j == m) return {2, m - i};
+    if (i == 0) return {3, m - j};
+    return {-1, 0};
   }
+  /// Of a face that was cut: its centre, then part by part those with i = 1 .. m and j = 1 .. m - 1, row by row. Those
+  /// with j = m are points i = m of the part before.
+  std::int64_t inside(PatchPoint p) const {
+    const std::int64_t m = face.block().k;
+    std::int64_t part = p.part, i = p.column, j = m - p.row;
+    if (!face.cut) return (j - 1) * (m - 1) + i - 1;
+    if (i == m && j == m) return 0;
+    if (j == m) part = (part + face.parts - 1) % face.parts, j = i, i = m;
+    return 1 + (part * (m - 1) + j - 1) * m + i - 1;
+  }
+  bool repeats(PatchPoint p) const {
+    return face.cut && p.row == 0 && (p.column < face.block().k || p.part > 0);
+  }
+  std::size_t in_grid(PatchPoint p) const {
+    const int m = face.block().k;
+    return static_cast<std::size_t>((p.part * (m + 1) + m - p.row) * (m + 1) + p.column);
+  }
+};
+
+inline QuadPatch patch_of(const QuadFaces& faces, const Grid& grid, const CrackPlan& plan) {
+  return {shown_face(faces, grid.face0, grid.depth, plan.display[grid.face0]), grid.depth};
 }
 
-/// The number of limit points evaluated for a face: rows, each once, the border of a repaired face, its
-/// centre.
-inline std::int64_t limit_points(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan) {
-  const std::int64_t parts = faces.parts(patch.face), m = faces.part_size(patch.depth);
-  if (corners_only(patch, faces)) return 0;
-  std::int64_t points = 0;
-  if (patch.display != Display::kFan) points += parts * (m + 1) * (m + 1);
-  if (patch.display != Display::kStrips) points += FaceInRepair<QuadFaces>{faces, plan, patch.face}.border();
-  return points + (patch.display == Display::kFan ? 1 : 0);
-}
+/// The border of a repaired face: limit vertices along its sides, from corner to corner.
+template <class Real>
+using QuadBorder = std::vector<std::vector<SurfaceVertex<Real>>>;
 
-inline std::int64_t strips_of(const QuadPatch& patch, const QuadFaces& faces, const DrawSize& size) {
-  return size.draws - (patch.display == Display::kStrips && !corners_only(patch, faces) ? 0 : 1);
-}
-
-inline FaceSize face_size(const QuadFaces& faces, std::int32_t f, int depth, const CrackPlan& plan) {
-  const std::int64_t m = faces.part_size(depth);
-  const std::int64_t points = plan.display[f] == Display::kFan ? 1
-                              : !faces.cut()                   ? (m - 1) * (m - 1)
-                              : m > 0                          ? 1 + faces.parts(f) * m * (m - 1)
-                                                               : 0;
-  return {points, draw_size(QuadPatch{f, depth, plan.display[f]}, faces, plan).triangles};
+/// Evaluates a face that is not shown as strips, and hands it to the writer.
+///   points   knows position(v) and limit(v) of a vertex of the mesh of quads, edge(h, depth, out) of a half-edge,
+///            middle(quad) of a quad, and grid(patch), the points of a patch; see in_grid()
+template <class Real, class Points, class Writer>
+void show_repaired(const QuadPatch& patch, const QuadFaces& faces, const CrackPlan& plan, FanCentre centre,
+                   const Points& points, QuadBorder<Real>& border, Writer& writer) {
+  const std::int32_t f = patch.face.face, first = faces.first_side(f);
+  if (patch.corners_only())
+    return writer.corners([&](int k) { return points.limit(faces.vertex(first + k)); });
+  border.resize(static_cast<std::size_t>(faces.sides(f)));
+  for (int side = 0; side < faces.sides(f); ++side) {
+    const std::int32_t c = first + side;
+    const int depth = plan.edge_depth[c];
+    auto& out = border[static_cast<std::size_t>(side)];
+    out.resize((std::size_t{1} << depth) + 1);
+    if (!faces.cut()) {
+      points.edge(c, depth, out.data());
+    } else if (depth == 0) {
+      out[0] = points.limit(faces.vertex(c)), out[1] = points.limit(faces.vertex(faces.next(c)));
+    } else {
+      points.edge(faces.first_half(c), depth - 1, out.data());
+      points.edge(faces.second_half(c), depth - 1, out.data() + (std::size_t{1} << (depth - 1)));
+    }
+  }
+  if (patch.face.display == Display::kStitch) {
+    const SurfaceVertex<Real>* grid = points.grid(patch);
+    inner_strips(patch, 0, grid, writer);
+    return writer.ring(0, grid, border);
+  }
+  // The limit point in the middle, or the mean of the corners with the normal of the limit.
+  SurfaceVertex<Real> middle =
+      faces.cut() ? points.limit(faces.mesh->adjacency.corner(first, 2)) : points.middle(f);
+  if (centre != FanCentre::kLimit) {
+    Vec3<double> sum{};
+    for (int k = 0; k < faces.sides(f); ++k) {
+      const std::int32_t v = faces.vertex(first + k);
+      sum = sum +
+            widen<Real>(centre == FanCentre::kFlatControl ? points.position(v) : points.limit(v).position);
+    }
+    middle.position = narrow<Real>(1. / faces.sides(f) * sum);
+  }
+  writer.fan(0, middle, border);
 }
 
 }  // namespace limitcheck::fast

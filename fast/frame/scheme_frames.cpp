@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <string>
+
+#include "data/error.h"
 
 namespace limitcheck::fast {
 
@@ -36,11 +40,11 @@ FrameStats SchemeFrames<Real, Scheme>::plan_frame(std::span<const std::int32_t> 
   for (const Grid& grid : pairing.grids) {
     const Patch& patch = patches.emplace_back(patch_of(faces, grid, plan));
     max_depth = std::max(max_depth, grid.depth);
-    stats.limit_points += limit_points(patch, faces, plan);
-    const DrawSize size = draw_size(patch, faces, plan);
-    stats.triangles += size.triangles;
-    stats.draws += size.draws;
-    stats.strips += strips_of(patch, faces, size);
+    const PatchCounts counts = count(patch, faces, plan);
+    stats.limit_points += counts.limit_points;
+    stats.triangles += counts.size.triangles;
+    stats.draws += counts.size.draws;
+    stats.strips += counts.strips;
   }
   for (const std::int8_t d : plan.edge_depth) max_depth = std::max<int>(max_depth, d);
   stats.faces = faces.size();
@@ -54,15 +58,31 @@ FrameStats SchemeFrames<Real, Scheme>::plan_frame(std::span<const std::int32_t> 
 }
 
 template <class Real, class Scheme>
-void SchemeFrames<Real, Scheme>::write_control_vertices(IndexedMesh<Real>& out) const {
-  for (std::size_t v = 0; v < layout_.vertex.size(); ++v)
-    if (layout_.vertex[v] != IndexLayout::kUnused)
-      out.vertices[layout_.vertex[v]] = limit(static_cast<std::int32_t>(v));
+void SchemeFrames<Real, Scheme>::write_index(IndexedMesh<Real>& out) {
+  const IndexLayout layout = IndexLayout::of(faces, pairing.depth, plan);
+  if (layout.vertex_count > std::numeric_limits<std::uint32_t>::max())
+    throw data::ArgumentError("frame: " + std::to_string(layout.vertex_count) +
+                              " vertices are more than 32-bit indices reach");
+  out.vertices.resize(static_cast<std::size_t>(layout.vertex_count));
+  out.provenance.resize(options.provenance ? out.vertices.size() : 0);
+  out.triangles.resize(static_cast<std::size_t>(layout.triangle_count));
+  out.triangle_face.resize(out.triangles.size());
+  out.triangle_kind.resize(out.triangles.size());
+  write_control_vertices(layout, out);
+  index(layout, out);
+}
+
+template <class Real, class Scheme>
+void SchemeFrames<Real, Scheme>::write_control_vertices(const IndexLayout& layout,
+                                                        IndexedMesh<Real>& out) const {
+  for (std::size_t v = 0; v < layout.vertex.size(); ++v)
+    if (layout.vertex[v] != IndexLayout::kUnused)
+      out.vertices[layout.vertex[v]] = limit(static_cast<std::int32_t>(v));
   if (!options.provenance) return;
   for (std::int32_t f = faces.size() - 1; f >= 0; --f) {
     if (pairing.depth[f] < 0) continue;
     for (int k = 0; k < faces.sides(f); ++k)
-      out.provenance[layout_.vertex[faces.vertex(faces.first_side(f) + k)]] = faces.corner(f, k);
+      out.provenance[layout.vertex[faces.vertex(faces.first_side(f) + k)]] = faces.corner(f, k);
   }
 }
 

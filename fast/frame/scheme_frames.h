@@ -24,12 +24,6 @@ struct LoopScheme {
   using Faces = LoopFaces;
   using Patch = LoopPatch;
   using Heuristics = DepthHeuristics;
-  template <class Real>
-  using DrawWriter = LoopDrawWriter<Real>;
-  template <class Real>
-  using IndexWriter = LoopIndexWriter<Real>;
-  template <class Real>
-  using PatchWriter = LoopPatchWriter<Real>;
 
   /// Refers to the mesh. Throws data::ArgumentError: what TriangleMesh refuses.
   LoopScheme(const data::ControlMesh& mesh, const PrintedRules& by) : rules(by), triangles(mesh) {}
@@ -56,12 +50,6 @@ struct QuadScheme {
   using Faces = QuadFaces;
   using Patch = QuadPatch;
   using Heuristics = QuadDepthHeuristics;
-  template <class Real>
-  using DrawWriter = QuadDrawWriter<Real>;
-  template <class Real>
-  using IndexWriter = QuadIndexWriter<Real>;
-  template <class Real>
-  using PatchWriter = QuadPatchWriter<Real>;
 
   /// Throws data::ArgumentError: what QuadMesh refuses.
   QuadScheme(const data::ControlMesh& mesh, const PrintedRules& /*by*/)
@@ -88,9 +76,10 @@ struct QuadScheme {
 template <class Real, class Scheme>
 struct SchemeFrames : FrameEngine<Real>, Scheme {
   using Patch = typename Scheme::Patch;
-  using DrawWriter = typename Scheme::template DrawWriter<Real>;
-  using IndexWriter = typename Scheme::template IndexWriter<Real>;
-  using PatchWriter = typename Scheme::template PatchWriter<Real>;
+  using Faces = typename Scheme::Faces;
+  using DrawWriter = fast::DrawWriter<Real, Patch, Faces>;
+  using IndexWriter = fast::IndexWriter<Real, Patch, Faces>;
+  using PatchWriter = fast::PatchWriter<Real, Patch, Faces>;
   using FrameEngine<Real>::max_depth, FrameEngine<Real>::mesh, FrameEngine<Real>::offsets,
       FrameEngine<Real>::options, FrameEngine<Real>::pairing, FrameEngine<Real>::placement,
       FrameEngine<Real>::plan, FrameEngine<Real>::stores, Scheme::faces;
@@ -115,14 +104,7 @@ struct SchemeFrames : FrameEngine<Real>, Scheme {
   FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) final;
   std::size_t patch_count() const final { return patches.size(); }
   DrawSize patch_size(std::size_t i) const final { return draw_size(patches[i], faces, plan); }
-  DrawSize measure_index() final {
-    layout_ = IndexLayout::of(faces, pairing.depth, plan);
-    return {layout_.vertex_count, 0, layout_.triangle_count};
-  }
-  void write_index(IndexedMesh<Real>& out) final {
-    write_control_vertices(out);
-    index(layout_, out);
-  }
+  void write_index(IndexedMesh<Real>& out) final;
 
   void list_patches(std::vector<PatchWanted>& out) const final {
     out.clear();
@@ -141,13 +123,12 @@ struct SchemeFrames : FrameEngine<Real>, Scheme {
   virtual SurfaceVertex<Real> limit(std::int32_t v) const = 0;
 
   /// Writes patch i to its place in a draw list that begins with patch `first`.
-  template <class Scratch>
-  DrawWriter draw_writer(std::size_t first, std::size_t i, DrawList<Real>& out, Scratch&& scratch) const {
+  DrawWriter draw_writer(std::size_t first, std::size_t i, DrawList<Real>& out) const {
     const DrawSize& at = offsets[i - first];
     const DrawPlace<Real> place{out.vertices.data() + at.vertices,
                                 options.provenance ? out.provenance.data() + at.vertices : nullptr,
                                 out.draws.data() + at.draws, at.vertices, stores};
-    return {patches[i], faces, plan, placement, place, scratch};
+    return {patches[i], faces, plan, placement, place};
   }
   IndexWriter index_writer(std::size_t i, const IndexLayout& layout, IndexedMesh<Real>& out) const {
     return {patches[i], faces, plan, layout, placement, out};
@@ -159,11 +140,10 @@ struct SchemeFrames : FrameEngine<Real>, Scheme {
   std::vector<Patch> patches;  // one per grid
 
  private:
-  void write_control_vertices(IndexedMesh<Real>& out) const;
+  void write_control_vertices(const IndexLayout& layout, IndexedMesh<Real>& out) const;
 
   std::optional<typename Scheme::Heuristics> heuristics_;
   bool heuristics_are_old_ = false;  // the points have moved since
-  IndexLayout layout_;
 };
 
 extern template struct SchemeFrames<float, LoopScheme>;

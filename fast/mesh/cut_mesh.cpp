@@ -11,9 +11,6 @@ namespace limitcheck::fast {
 
 namespace {
 
-bool is_semi_sharp(double s) {
-  return s > 0 && s < kAlwaysSharp;
-}
 bool any_semi_sharp(const SharpPolygons& sharp) {
   return std::any_of(sharp.side.begin(), sharp.side.end(), is_semi_sharp) ||
          std::any_of(sharp.vertex.begin(), sharp.vertex.end(), is_semi_sharp);

@@ -21,10 +21,6 @@ Point operator*(double s, const Point& a) {
   return {s * a[0], s * a[1], s * a[2]};
 }
 
-bool is_semi_sharp(double s) {
-  return s > 0 && s < kAlwaysSharp;
-}
-
 // The edges of polygons in the order of their first corners.
 struct Edges {
   struct Edge {
@@ -81,19 +77,12 @@ struct Star {
   int vanishing_count = 0;
 };
 
-enum class Rule { kSmooth, kCrease, kHeld };
-
-Rule rule_of(double vertex_sharpness, int sharp_edges) {
-  if (vertex_sharpness > 0 || sharp_edges > 2) return Rule::kHeld;
-  return sharp_edges == 2 ? Rule::kCrease : Rule::kSmooth;
-}
-
-Point by_rule(Rule rule, const Point& c, const Star& star, const Point& ends) {
+Point by_rule(VertexRule rule, const Point& c, const Star& star, const Point& ends) {
   const double n = star.valence;
   switch (rule) {
-    case Rule::kHeld:
+    case VertexRule::kHeld:
       return c;
-    case Rule::kCrease:
+    case VertexRule::kCrease:
       return .75 * c + .125 * ends;
     default:
       return ((n - 2) / n) * c + (1 / (n * n)) * (star.edges + star.faces);
@@ -204,14 +193,14 @@ SharpPolygons SharpPolygons::step() const {
     Star& star = stars[v];
     const double s = vertex[v], s_after = softened(s, 0, 0, data::Creasing::kUniform);
     if (s > 0 && s_after <= 0) star.vanishing += s, ++star.vanishing_count;
-    const Rule now = rule_of(s, star.sharp), then = rule_of(s_after, star.sharp_after);
+    const VertexRule now = rule_of(s, star.sharp), then = rule_of(s_after, star.sharp_after);
     out.vertex[v] = s_after;
     if (star.valence == 0) {
       out.positions[v] = positions[v];
       continue;
     }
     out.positions[v] = by_rule(now, positions[v], star, star.ends);
-    if (now == Rule::kSmooth || now == then || star.vanishing_count == 0) continue;
+    if (now == VertexRule::kSmooth || now == then || star.vanishing_count == 0) continue;
     const double weight = std::min(1., star.vanishing / star.vanishing_count);
     out.positions[v] =
         weight * out.positions[v] + (1 - weight) * by_rule(then, positions[v], star, star.ends_after);

@@ -41,6 +41,16 @@ class VertexKinds {
 
 /// The sharpness of what no step makes smooth.
 inline constexpr double kAlwaysSharp = std::numeric_limits<double>::infinity();
+inline bool is_semi_sharp(double s) {
+  return s > 0 && s < kAlwaysSharp;
+}
+
+/// The rule of a vertex of this sharpness at which so many edges are sharp.
+enum class VertexRule { kSmooth, kCrease, kHeld };
+inline VertexRule rule_of(double vertex, int sharp_edges) {
+  if (vertex > 0 || sharp_edges > 2) return VertexRule::kHeld;
+  return sharp_edges == 2 ? VertexRule::kCrease : VertexRule::kSmooth;
+}
 
 /// What one step makes of the sharpness of an edge, seen from one of its ends, or of a vertex. [DeRose 1998]
 ///   sum, count   of the sharpness of all edges at that end which are sharp, but not for ever: for Chaikin's

@@ -181,13 +181,9 @@ struct TriangleSurface {
   /// Whether any neighbour of v is one that `is` says yes to.
   template <class Is>
   bool any_neighbour(std::int32_t v, Is&& is) const {
-    const std::int32_t start = adjacency.outgoing(v);
-    for (std::int32_t h = start; h >= 0;) {
-      if (is(adjacency.target(h)) || is(adjacency.origin(Adjacency::prev(h)))) return true;
-      h = adjacency.rotate(h);
-      if (h == start) break;
-    }
-    return false;
+    bool any = false;
+    adjacency.for_each_neighbour(v, [&](std::int32_t w) { any = any || is(w); });
+    return any;
   }
 };
 

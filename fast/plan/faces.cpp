@@ -9,6 +9,12 @@ std::uint32_t number(int i) {
   return static_cast<std::uint32_t>(i);
 }
 
+// Turned about the middle of a quad of k steps by so many quarters, counter-clockwise.
+std::array<int, 2> turned(int quarters, std::array<int, 2> at, int k) {
+  for (; quarters > 0; --quarters) at = {k - at[1], at[0]};
+  return at;
+}
+
 }  // namespace
 
 QuadFaces::QuadFaces(const data::Faces& faces, const QuadMesh& quads) : first{0}, mesh(&quads) {
@@ -31,21 +37,12 @@ LatticePoint QuadFaces::lattice(std::int32_t f, int depth, PartPoint p) const {
   if (!cut()) return {f, number(p.i), number(p.j), 1u << depth};
   const int m = part_size(depth), k = 2 * m;
   if (sides(f) != 4) return {f, number(p.i), number(p.j), number(m), p.part};
-  switch (p.part) {  // each part is turned by a quarter more
-    case 0:
-      return {f, number(p.i), number(p.j), number(k)};
-    case 1:
-      return {f, number(k - p.j), number(p.i), number(k)};
-    case 2:
-      return {f, number(k - p.i), number(k - p.j), number(k)};
-    default:
-      return {f, number(p.j), number(k - p.i), number(k)};
-  }
+  const auto [i, j] = turned(p.part, {p.i, p.j}, k);
+  return {f, number(i), number(j), number(k)};
 }
 
 LatticePoint QuadFaces::corner(std::int32_t f, int k) const {
-  if (sides(f) != 4) return {f, 0, 0, 1, k};
-  return {f, k == 1 || k == 2 ? 1u : 0u, k >= 2 ? 1u : 0u, 1};
+  return sides(f) != 4 ? LatticePoint{f, 0, 0, 1, k} : on_side(f, k, 0, 1);
 }
 
 LatticePoint QuadFaces::on_side(std::int32_t f, int side, int t, int count) const {
@@ -56,17 +53,8 @@ LatticePoint QuadFaces::on_side(std::int32_t f, int side, int t, int count) cons
     if (t <= half) return {f, number(t), 0, number(half), side};
     return {f, 0, number(count - t), number(half), (side + 1) % n};
   }
-  const std::uint32_t along = number(t), back = number(count - t), end = number(count);
-  switch (side) {
-    case 0:
-      return {f, along, 0, end};
-    case 1:
-      return {f, end, along, end};
-    case 2:
-      return {f, back, end, end};
-    default:
-      return {f, 0, back, end};
-  }
+  const auto [i, j] = turned(side, {t, 0}, count);
+  return {f, number(i), number(j), number(count)};
 }
 
 LatticePoint QuadFaces::centre(std::int32_t f) const {
@@ -79,16 +67,8 @@ PartPoint QuadFaces::beside(std::int32_t f, int depth, int side, int t) const {
     if (t < k / 2) return {side, t + 1, 1};
     return {(side + 1) % sides(f), 1, k - 1 - t};
   }
-  switch (side) {
-    case 0:
-      return {0, t + 1, 1};
-    case 1:
-      return {0, k - 1, t + 1};
-    case 2:
-      return {0, k - 1 - t, k - 1};
-    default:
-      return {0, 1, k - 1 - t};
-  }
+  const auto [i, j] = turned(side, {t + 1, 1}, k);
+  return {0, i, j};
 }
 
 }  // namespace limitcheck::fast

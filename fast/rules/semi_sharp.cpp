@@ -46,12 +46,6 @@ int always_sharp(const QuadMesh& mesh, std::int32_t v) {
   }
 }
 
-enum class Rule { kSmooth, kCrease, kHeld };
-
-Rule rule_of(double vertex, std::size_t edges) {
-  return vertex > 0 || edges > 2 ? Rule::kHeld : edges == 2 ? Rule::kCrease : Rule::kSmooth;
-}
-
 }  // namespace
 
 double edge_crease_share(double sharpness, double half, double other_half) {
@@ -140,19 +134,18 @@ SemiSharp::SemiSharp(const QuadMesh& mesh) : mesh_(&mesh) {
         next.count += near > 0 ? 1 : 0;
       }
 
-      const std::size_t fixed = static_cast<std::size_t>(always);
-      const Rule now = rule_of(hub.vertex, fixed + static_cast<std::size_t>(hub.count));
-      const Rule then = rule_of(next.vertex, fixed + static_cast<std::size_t>(next.count));
-      const double weight = now == Rule::kSmooth || now == then || vanishing_count == 0
+      const VertexRule now = rule_of(hub.vertex, always + hub.count),
+                       then = rule_of(next.vertex, always + next.count);
+      const double weight = now == VertexRule::kSmooth || now == then || vanishing_count == 0
                                 ? 1
                                 : std::min(1., vanishing / vanishing_count);
       for (const auto& [rule, part] : {std::pair{now, weight}, std::pair{then, 1 - weight}}) {
-        if (rule == Rule::kHeld) tags.held += part;
-        if (rule == Rule::kCrease) tags.crease += part;
+        if (rule == VertexRule::kHeld) tags.held += part;
+        if (rule == VertexRule::kCrease) tags.crease += part;
       }
       // The two sharp edges: those that are so for ever come first and last in the ring.
       if (tags.crease > 0) {
-        const bool of_now = now == Rule::kCrease;
+        const bool of_now = now == VertexRule::kCrease;
         std::vector<std::int32_t> edges;
         if (always > 0) edges.push_back(0);
         for (std::size_t i = 0; i < after.size(); ++i)

@@ -128,9 +128,9 @@ struct CollectingSink : DrawSink<float> {
 };
 
 /// For an engine with provenance: a frame of more than one part delivers the same to a sink as in memory.
-inline void expect_a_sink_gets_the_whole_list(Engine<float>& engine) {
+inline void expect_a_sink_gets_the_whole_list(Engine<float>& engine, int most = 4) {
   std::vector<std::int32_t> depth;
-  for (std::int32_t f = 0; f < engine.face_count(); ++f) depth.push_back(f % 5);
+  for (std::int32_t f = 0; f < engine.face_count(); ++f) depth.push_back(most - f % 5);
   DrawList<float> list;
   CollectingSink sink;
   const FrameStats a = engine.frame(depth, list);

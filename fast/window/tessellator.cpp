@@ -77,7 +77,6 @@ struct LoopWorker {
       : window(max_depth, scheme.adjacency.max_valence()),
         edge(max_depth, scheme.adjacency.max_valence()),
         centre(scheme.adjacency.max_valence()) {
-    scratch.reserve(max_depth);
     for (auto& b : border) b.resize((std::size_t{1} << max_depth) + 1);
   }
 
@@ -85,8 +84,8 @@ struct LoopWorker {
   EdgeStrip<Real> edge;
   FanCentreEvaluator<Real> centre;
   std::optional<TriangleLattice<Real>> lattice;  // once a face without neighbours has come
-  typename LoopDrawWriter<Real>::Scratch scratch;
   std::array<std::vector<SurfaceVertex<Real>>, 3> border;
+  std::vector<SurfaceVertex<Real>> grid;  // of a patch with stitched faces
 
   std::int64_t zero_normals() const {
     return window.zero_normals() + edge.zero_normals() + centre.zero_normals() +
@@ -94,44 +93,62 @@ struct LoopWorker {
   }
 };
 
+/// Keeps the strip below a row of a part.
+template <class Patch, class Vertex>
+void keep_strip(const Patch& patch, int part, int row, int count, const Vertex* strip,
+                std::vector<Vertex>& grid) {
+  for (int q = 0; q < count; ++q) grid[patch.in_grid({part, row + q % 2, q / 2})] = strip[q];
+}
+
 /// Evaluates one patch and hands every piece to the writer.
 template <class Real, class Writer>
-void evaluate(const PreparedMesh<Real>& mesh, const LoopPatch& patch, const LoopFaces& faces,
+void evaluate(const PreparedMesh<Real>& mesh, const LoopPatch& patch, const LoopFaces& /*faces*/,
               const CrackPlan& plan, FanCentre centre, LoopWorker<Real>& worker, Writer& writer) {
   using Vertex = SurfaceVertex<Real>;
-  const int k = 1 << patch.depth;
-  if (patch.half[1].face < 0) {
-    if (patch.half[0].uses_window()) {
-      if (!worker.lattice) worker.lattice.emplace(worker.window.max_depth());
-      worker.lattice->run(mesh, patch.half[0].face, patch.depth, [&](int row, const Vertex* strip) {
-        writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
+  const int k = patch.k();
+  const Half &first = patch.half[0], &second = patch.half[1];
+  const bool full = patch.full(), alone = second.face < 0;
+  const bool stitched = first.display == Display::kStitch || second.display == Display::kStitch;
+  if (stitched) worker.grid.resize(static_cast<std::size_t>((k + 1) * (k + 1)));
+  const auto take = [&](int row, const Vertex* strip) {
+    const auto at = [&](int q) -> const Vertex& { return strip[q]; };
+    if (stitched)
+      return keep_strip(patch, 0, row, patch.block(alone ? 0 : LoopPatch::kWhole).strip_points(row), strip,
+                        worker.grid);
+    if (full) return writer.strip(LoopPatch::kWhole, row, at);
+    if (first.display == Display::kStrips) writer.strip(0, row, at);
+    if (second.display == Display::kStrips)
+      writer.strip(1, k - 1 - row, [&](int q) -> const Vertex& { return strip[2 * k + 1 - q]; });
+  };
+  if (alone && first.uses_window()) {
+    if (!worker.lattice) worker.lattice.emplace(worker.window.max_depth());
+    worker.lattice->run(mesh, first.face, patch.depth, take);
+  } else if (first.uses_window() || second.uses_window()) {
+    worker.window.run(mesh, 3 * first.face + first.edge, patch.depth, take);
+  }
+  // Row by row as well.
+  for (int i = 0; i < 2 * k && stitched; ++i) {
+    const int s = i % 2, row = s == 0 ? i / 2 : k - 1 - i / 2;
+    if (patch.half[s].display == Display::kStrips)
+      writer.strip(s, row, [&](int q) -> const Vertex& {
+        return worker.grid[patch.in_grid({s, row + q % 2, q / 2})];
       });
-    }
-  } else if (patch.half[0].uses_window() || patch.half[1].uses_window()) {
-    const bool full = patch.full();
-    const std::int32_t h0 = 3 * patch.half[0].face + patch.half[0].edge;
-    worker.window.run(mesh, h0, patch.depth, [&](int row, const Vertex* strip) {
-      if (full) return writer.whole_strip(row, [&](int q) -> const Vertex& { return strip[q]; });
-      if (patch.half[0].uses_window())
-        writer.half_strip(0, row, [&](int q) -> const Vertex& { return strip[q]; });
-      if (patch.half[1].uses_window())
-        writer.half_strip(1, k - 1 - row, [&](int q) -> const Vertex& { return strip[2 * k + 1 - q]; });
-    });
+    if (patch.half[s].display == Display::kStitch && row >= 1 && row <= k - 3)
+      writer.inner_strip(s, row - 1, worker.grid.data());
   }
   for (int side = 0; side < 2; ++side) {
     const Half& half = patch.half[side];
     if (!half.repaired()) continue;
-    const FaceInRepair<LoopFaces> face{faces, plan, half.face};
     Border<Real> border;
     for (int e = 0; e < 3; ++e) {
       auto& points = worker.border[e];
-      worker.edge.evaluate(mesh, 3 * half.face + e, face.depth(e), points.data());
+      worker.edge.evaluate(mesh, 3 * half.face + e, plan.edge_depth[3 * half.face + e], points.data());
       border[e] = points.data();
     }
     if (half.display == Display::kFan)
       writer.fan(side, worker.centre.evaluate(mesh, half.face, centre), border);
     else
-      writer.ring(side, border);
+      writer.ring(side, worker.grid.data(), border);
   }
 }
 
@@ -145,10 +162,44 @@ struct QuadWorker {
   QuadWindow<Real> window;
   QuadEdge<Real> edge;
   QuadBorder<Real> border;
-  FacePoints<Real> points;
-  typename QuadDrawWriter<Real>::Scratch scratch;
+  std::vector<SurfaceVertex<Real>> grid;  // of a stitched face
 
   std::int64_t zero_normals() const { return window.zero_normals() + edge.zero_normals(); }
+};
+
+/// The points of a face, see show_repaired().
+template <class Real>
+struct QuadPoints {
+  using Vertex = SurfaceVertex<Real>;
+
+  const PreparedQuads<Real>& mesh;
+  const QuadFaces& faces;
+  QuadWorker<Real>& worker;
+
+  const Vec3<Real>& position(std::int32_t v) const { return mesh.position(v); }
+  const Vertex& limit(std::int32_t v) const { return mesh.limit(v); }
+  void edge(std::int32_t h, int depth, Vertex* out) const { worker.edge.evaluate(mesh, h, depth, out); }
+  Vertex middle(std::int32_t quad) const {
+    Vertex middle;
+    worker.window.run(mesh, quad, 1, [&](int row, const Vertex* strip) {
+      if (row == 0) middle = strip[3];
+    });
+    return middle;
+  }
+  /// take(part, row, strip) for each strip.
+  template <class Take>
+  void for_each_strip(const QuadPatch& patch, Take&& take) const {
+    for (int part = 0; part < patch.face.parts; ++part)
+      worker.window.run(mesh, faces.quad(patch.face.face, part), patch.depth - (faces.cut() ? 1 : 0),
+                        [&](int row, const Vertex* strip) { take(part, row, strip); });
+  }
+  const Vertex* grid(const QuadPatch& patch) const {
+    worker.grid.resize(static_cast<std::size_t>(patch.face.parts * patch.face.block().size()));
+    for_each_strip(patch, [&](int part, int row, const Vertex* strip) {
+      keep_strip(patch, part, row, patch.face.block().strip_points(row), strip, worker.grid);
+    });
+    return worker.grid.data();
+  }
 };
 
 /// Evaluates one face and hands every piece to the writer.
@@ -156,49 +207,12 @@ template <class Real, class Writer>
 void evaluate(const PreparedQuads<Real>& mesh, const QuadPatch& patch, const QuadFaces& faces,
               const CrackPlan& plan, FanCentre centre, QuadWorker<Real>& worker, Writer& writer) {
   using Vertex = SurfaceVertex<Real>;
-  const std::int32_t f = patch.face, first = faces.first_side(f);
-  const int m = faces.part_size(patch.depth), part_depth = patch.depth - (faces.cut() ? 1 : 0);
-  const auto limit = [&](std::int32_t v) -> const Vertex& { return mesh.limit(v); };
-  if (corners_only(patch, faces)) {
-    writer.corners([&](int k) -> const Vertex& { return mesh.limit(faces.vertex(first + k)); });
-    return;
-  }
-  if (patch.display == Display::kStrips) {
-    for (int part = 0; part < faces.parts(f); ++part)
-      worker.window.run(mesh, faces.quad(f, part), part_depth, [&](int row, const Vertex* strip) {
-        writer.strip(part, row, [&](int q) -> const Vertex& { return strip[q]; });
-      });
-    return;
-  }
-  const auto edge = [&](std::int32_t h, int depth, Vertex* out) {
-    worker.edge.evaluate(mesh, h, depth, out);
-  };
-  worker.border.resize(static_cast<std::size_t>(faces.sides(f)));
-  for (int side = 0; side < faces.sides(f); ++side)
-    evaluate_side<Real>(faces, first + side, plan.edge_depth[first + side], limit, edge, worker.border[side]);
-  if (patch.display == Display::kFan) {
-    const auto middle_of_quad = [&] {
-      Vertex middle;
-      worker.window.run(mesh, f, 1, [&](int row, const Vertex* strip) {
-        if (row == 0) middle = strip[3];
-      });
-      return middle;
-    };
-    writer.fan(face_centre<Real>(
-                   faces, f, centre, [&](std::int32_t v) { return mesh.position(v); }, limit, middle_of_quad),
-               worker.border);
-    return;
-  }
-  worker.points.resize(faces.parts(f), m);
-  for (int part = 0; part < faces.parts(f); ++part) {
-    worker.window.run(mesh, faces.quad(f, part), part_depth, [&](int row, const Vertex* strip) {
-      for (int i = 0; i <= m; ++i) {
-        worker.points.at({part, i, m - row}) = strip[2 * i];
-        worker.points.at({part, i, m - row - 1}) = strip[2 * i + 1];
-      }
-    });
-  }
-  writer.stitch(worker.points, worker.border);
+  const QuadPoints<Real> points{mesh, faces, worker};
+  if (patch.face.display != Display::kStrips || patch.corners_only())
+    return show_repaired<Real>(patch, faces, plan, centre, points, worker.border, writer);
+  points.for_each_strip(patch, [&](int part, int row, const Vertex* strip) {
+    writer.strip(part, row, [&](int q) -> const Vertex& { return strip[q]; });
+  });
 }
 
 /// The mesh as the windows of a scheme read it, and what evaluates its patches.
@@ -252,22 +266,14 @@ struct WindowFrames final : SchemeFrames<Real, Scheme> {
   }
 
   void draw(std::size_t first, std::size_t last, DrawList<Real>& out) override {
-    run(
-        last - first, [&](std::size_t k) { return first + k; },
-        [&](std::size_t i, Worker& worker) { return this->draw_writer(first, i, out, worker.scratch); });
+    run(first, last, {}, [&](std::size_t i) { return this->draw_writer(first, i, out); });
   }
   void index(const IndexLayout& layout, IndexedMesh<Real>& out) override {
-    run(
-        patches.size(), [](std::size_t i) { return i; },
-        [&](std::size_t i, Worker&) { return this->index_writer(i, layout, out); });
+    run(0, patches.size(), {}, [&](std::size_t i) { return this->index_writer(i, layout, out); });
   }
   void write_patches(std::span<const BlockOffset> places, const PatchTarget<Real>& out) override {
-    fresh.clear();
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i].fresh) fresh.push_back(i);
-    run(
-        fresh.size(), [&](std::size_t k) { return fresh[k]; },
-        [&](std::size_t i, Worker&) { return this->patch_writer(patches[i], places[i].first, out); });
+    run(0, patches.size(), places,
+        [&](std::size_t i) { return this->patch_writer(patches[i], places[i].first, out); });
   }
 
   SurfaceVertex<Real> limit(std::int32_t v) const override { return placed(prepared->limit(v), placement); }
@@ -278,25 +284,25 @@ struct WindowFrames final : SchemeFrames<Real, Scheme> {
     return count;
   }
 
-  /// Evaluates patches number(0) .. number(count - 1) in parallel, each into make_writer(i, worker).
-  template <class Number, class MakeWriter>
-  void run(std::size_t count, Number&& number, MakeWriter&& make_writer) {
+  /// Evaluates patches first .. last - 1, but those whose places are not fresh, in parallel, each into make_writer(i).
+  template <class MakeWriter>
+  void run(std::size_t first, std::size_t last, std::span<const BlockOffset> places,
+           MakeWriter&& make_writer) {
     const auto chunk = [&](const tbb::blocked_range<std::size_t>& range) {
       Worker& worker = *workers[tbb::this_task_arena::current_thread_index()];
-      for (std::size_t k = range.begin(); k < range.end(); ++k) {
-        const std::size_t i = number(k);
-        auto writer = make_writer(i, worker);
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        if (!places.empty() && !places[i].fresh) continue;
+        auto writer = make_writer(i);
         evaluate(*prepared, patches[i], faces, plan, options.cracks.centre, worker, writer);
       }
     };
-    arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), chunk); });
+    arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, 16), chunk); });
   }
 
   std::optional<typename Window::Mesh> prepared;
   std::vector<std::unique_ptr<Worker>> workers;
   int worker_depth = 0;
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before
-  std::vector<std::size_t> fresh;        // patches that are to be evaluated
 };
 
 }  // namespace

@@ -7,11 +7,11 @@
 #include <cstring>
 
 #include "data/error.h"
-#include "data/splitmix64.h"
+#include "data/generators/mixed_mesh.h"
+#include "data/generators/polygon_meshes.h"
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/patch.h"
 #include "fast/test_support/exact_weld.h"
-#include "fast/test_support/refined_limits.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/crack_edge.h"
 #include "fast/window/sliding_window.h"
@@ -20,83 +20,13 @@
 namespace limitcheck::fast {
 namespace {
 
-struct Shape {
-  const char* name;
-  data::ControlMesh mesh;
-  int boundary_loops;
-};
-
-std::vector<Shape> shapes() {
-  return {{"tetrahedron", tetrahedron(), 0},
-          {"octahedron", octahedron(), 0},
-          {"shaken tetrahedron", shaken(tetrahedron(), .15, 1), 0},
-          {"shaken bipyramid 3", shaken(bipyramid(3), .15, 2), 0},
-          {"shaken bipyramid 9", shaken(bipyramid(9), .15, 3), 0},
-          {"torus", grid_torus(3, 5), 0},
-          {"shaken torus", shaken(grid_torus(4, 4), .15, 4), 0},
-          {"sheet", grid_sheet(2, 3), 1},
-          {"shaken sheet", shaken(grid_sheet(3, 3), .15, 5), 1},
-          {"wheel 3", shaken(wheel(3), .15, 6), 1},
-          {"wheel 8", shaken(wheel(8), .15, 7), 1},
-          {"fan 2", shaken(fan(2), .15, 8), 1},
-          {"fan 5", shaken(fan(5), .15, 9), 1},
-          {"single triangle", shaken(single_triangle(), .15, 10), 1}};
+TessellatorOptions quads(Repair repair) {
+  TessellatorOptions options{.scheme = data::Scheme::kCatmullClark};
+  options.cracks.repair = repair;
+  options.provenance = true;
+  return options;
 }
 
-TEST(Sec5_Frame, EveryPointLiesWhereItsProvenanceSays) {
-  for (const auto& [name, mesh, loops] : shapes()) {
-    data::SplitMix64 random(11);
-    const RefinedLevels exact = RefinedLevels::loop(mesh, 3);
-    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      TessellatorOptions options{.provenance = true};
-      options.cracks.repair = repair;
-      Tessellator<double> tessellator(mesh, options);
-      for (int round = 0; round < 6; ++round) {
-        const auto depth = random_depths(mesh.faces.size(), round % 2 == 0 ? 0 : -1, 3, random);
-        DrawList<double> list;
-        const FrameStats stats = tessellator.frame(depth, list);
-        expect_on_the_limit(exact, list, 1e-14, name, 1e-12);
-        IndexedMesh<double> indexed;
-        const FrameStats again = tessellator.frame(depth, indexed);
-        expect_on_the_limit(exact, indexed, 1e-14, name, 1e-12);
-        EXPECT_EQ(stats.triangles, again.triangles);
-        EXPECT_EQ(static_cast<std::size_t>(stats.triangles), indexed.triangles.size());
-        EXPECT_EQ(static_cast<std::size_t>(stats.triangles), triangles_of(list).size());
-      }
-    }
-  }
-}
-
-template <class Real>
-void expect_watertight(int rounds, int deepest) {
-  for (const auto& [name, mesh, loops] : shapes()) {
-    data::SplitMix64 random(12);
-    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      TessellatorOptions options;
-      options.cracks.repair = repair;
-      options.threads = 1;
-      Tessellator<Real> tessellator(mesh, options);
-      DrawList<Real> list;
-      IndexedMesh<Real> indexed;
-      for (int round = 0; round < rounds; ++round) {
-        const auto depth = random_depths(mesh.faces.size(), 0, deepest, random);
-        tessellator.frame(depth, list);
-        tessellator.frame(depth, indexed);
-        for (const auto& report : {weld(triangles_of(list), true), weld(triangles_of(indexed), true)}) {
-          EXPECT_EQ(report.repeated, 0) << name;
-          EXPECT_EQ(report.degenerate, 0) << name;
-          EXPECT_EQ(report.boundary_loops, loops) << name;
-          EXPECT_EQ(report.open == 0, loops == 0) << name;
-        }
-        if (::testing::Test::HasFailure()) return;
-      }
-    }
-  }
-}
-
-TEST(Sec5_Frame, IsWatertightBitByBitWithNormalsInFloat) {
-  expect_watertight<float>(40, 3);
-}
 TEST(Sec4_Frame, OpensOnlyWhereCulledFacesBegin) {
   data::ControlMesh mesh = shaken(grid_torus(12, 16), .15, 14);
   Camera camera{.eye = {1, 5, 3}};
@@ -192,10 +122,6 @@ TEST(Sec4_Frame, RoundsACoordinateOnceThatIsNoFloat) {
   DrawList<float> list;
   Tessellator<float>(mesh).frame(std::vector<std::int32_t>(mesh.faces.size(), 2), list);
   for (const auto& v : list.vertices) EXPECT_EQ(v.position.x, 0x1p25f + 4);
-}
-
-TEST(Sec5_Frame, IsWatertightBitByBitWithNormalsInDouble) {
-  expect_watertight<double>(10, 4);
 }
 
 template <class N>
@@ -305,16 +231,13 @@ TEST(Sec5_Stitch, MakesTheRingOfTrianglesItAnnounces) {
   }
 }
 
-TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
-  data::ControlMesh mesh = grid_torus(20, 30);
-  for (auto& p : mesh.positions) p[2] += .05 * std::sin(9 * p[0]);
-  std::vector<std::int32_t> depth;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    depth.push_back(static_cast<std::int32_t>(f * f % 6) - 1);
+void expect_the_same_by_threads(const data::ControlMesh& mesh, TessellatorOptions options) {
+  const auto depth = random_depths(mesh.faces.size(), -1, 4, 1);
   std::vector<DrawList<float>> lists;
   std::vector<IndexedMesh<float>> meshes;
+  options.provenance = true;
   for (const int threads : {1, 2, 8}) {
-    TessellatorOptions options{.threads = threads, .provenance = true};
+    options.threads = threads;
     Tessellator<float> tessellator(mesh, options);
     for (int again = 0; again < 2; ++again) {
       tessellator.frame(depth, lists.emplace_back());
@@ -332,10 +255,16 @@ TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
+  expect_the_same_by_threads(shaken(grid_torus(20, 30), .05, 3), {});
+  expect_the_same_by_threads(data::mixed_mesh(3), quads(Repair::kStitch));
+}
+
 TEST(Sec4_Sinks, OnTheFlyDeliversTheSameAsTheWholeList) {
-  TessellatorOptions options{.provenance = true};
-  Tessellator<float> tessellator(grid_torus(32, 40), options);
-  expect_a_sink_gets_the_whole_list(tessellator);
+  Tessellator<float> triangles(grid_torus(32, 40), {.provenance = true});
+  expect_a_sink_gets_the_whole_list(triangles, 4);
+  Tessellator<float> polygons(data::mixed_pawn(40), quads(Repair::kStitch));
+  expect_a_sink_gets_the_whole_list(polygons, 6);
 }
 
 TEST(Sec4_Frame, RefusesWhatItCannotDo) {
@@ -349,6 +278,70 @@ TEST(Sec4_Frame, RefusesWhatItCannotDo) {
   EXPECT_EQ(nothing.culled, 8);
   EXPECT_TRUE(out.vertices.empty());
   EXPECT_TRUE(out.draws.empty());
+}
+
+TEST(QuadFrame, CullsAndCountsFaces) {
+  const auto mesh = data::quad_torus(6, 8);
+  Tessellator<float> tessellator(mesh, quads(Repair::kFan));
+  EXPECT_EQ(tessellator.face_count(), 48);
+  std::vector<std::int32_t> depth(48, 2);
+  depth[5] = -1;
+  IndexedMesh<float> out;
+  const FrameStats stats = tessellator.frame(depth, out);
+  EXPECT_EQ(stats.culled, 1);
+  EXPECT_EQ(stats.pairs, 47) << "a quad is a pair of itself";
+  EXPECT_EQ(stats.singletons, 0);
+  EXPECT_EQ(stats.strips, 47 * 4);
+  EXPECT_EQ(stats.limit_points, 47 * 25);
+  EXPECT_EQ(stats.triangles, 47 * 32);
+  EXPECT_EQ(weld(triangles_of(out), true).boundary_loops, 1) << "a hole where the face was";
+  EXPECT_THROW(tessellator.adjacency(), data::ArgumentError);
+  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(47, 1), out), data::ArgumentError);
+}
+
+TEST(QuadFrame, DepthsFollowTheView) {
+  for (const auto& mesh : {data::pawn(12), data::mixed_pawn(12)}) {
+    Tessellator<float> tessellator(mesh, quads(Repair::kFan));
+    DepthOptions options;
+    Camera camera{.eye = {9, 2, 3}};
+    IndexedMesh<float> out;
+    std::int64_t coarse = 0;
+    for (const double angle : {60., 20., 5.}) {
+      options.angle_front = options.angle_silhouette = options.angle_back = angle;
+      const FrameStats stats = tessellator.frame(options, camera, out);
+      EXPECT_GT(stats.culled, stats.faces / 4) << "about half look away";
+      EXPECT_LT(stats.culled, 3 * stats.faces / 4);
+      EXPECT_GT(stats.triangles, coarse) << "a smaller angle asks for more";
+      coarse = stats.triangles;
+    }
+    options.strategy = Strategy::kProjectSphere;
+    options.target_pixels = 20;
+    const auto near = tessellator.frame(options, camera, out).triangles;
+    camera.eye = {90, 20, 30};
+    EXPECT_LT(tessellator.frame(options, camera, out).triangles, near) << "from afar";
+  }
+  // A flat sheet needs no depth, whatever its faces.
+  auto flat = data::quad_wheel(5, 1);
+  for (auto& p : flat.positions) p[2] = 0;
+  Tessellator<float> tessellator(flat, quads(Repair::kFan));
+  DepthOptions options{.strategy = Strategy::kCurvature, .cull = false};
+  IndexedMesh<float> out;
+  tessellator.frame(options, Camera{}, out);
+  for (const std::int32_t d : tessellator.last_pairing().depth) EXPECT_EQ(d, 0);
+}
+
+// Collapsed meshes get finite unit normals, and are counted. [D12]
+TEST(QuadFrame, DegenerateMeshesHaveUnitNormals) {
+  for (const int flat : {0, 1, 2, 3}) {
+    auto mesh = data::quad_wheel(5, 1);
+    for (auto& p : mesh.positions)
+      for (int axis = 0; axis < flat; ++axis) p[2 - axis] = 0;
+    Tessellator<float> tessellator(mesh, quads(Repair::kFan));
+    DrawList<float> out;
+    const FrameStats stats = tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 3), out);
+    EXPECT_EQ(stats.zero_normals > 0, flat >= 2) << "of " << flat << " flat axes";
+    for (const auto& v : out.vertices) ASSERT_NEAR(dot(v.normal, v.normal), 1, 1e-6);
+  }
 }
 
 }  // namespace

@@ -44,16 +44,13 @@ class TriangleLattice {
       std::swap(from, to);
     }
     const int k = 1 << depth;
-    const auto at = [&](int r, int c) -> const Vec3<N>& { return (*from)[index(k, r, c)]; };
     const auto limit = [&](int r, int c) -> Vertex {
-      if (r == 0 && c == 0) return mesh.limit(v[2]);
-      if (r == k) return mesh.limit(v[0]);
-      if (c == k) return mesh.limit(v[1]);
-      if (r == 0) return boundary(at(r, c), at(r, c - 1), at(r + 1, c - 1), at(r + 1, c), at(r, c + 1));
-      if (c == 0) return boundary(at(r, c), at(r + 1, c), at(r, c + 1), at(r - 1, c + 1), at(r - 1, c));
-      if (r + c == k)
-        return boundary(at(r, c), at(r - 1, c + 1), at(r - 1, c), at(r, c - 1), at(r + 1, c - 1));
-      return regular_vertex_limit<N, Surface>(at(r, c), ring(*from, k, r, c), zero_normals_);
+      if (const int corner = corner_of(k, r, c); corner >= 0) return mesh.limit(v[corner]);
+      const Vec3<N>& here = (*from)[index(k, r, c)];
+      const Neighbours n = neighbours(*from, k, r, c);
+      if (on_boundary(k, r, c))
+        return boundary_vertex_limit<N, Surface>(here, *n[0], *n[1], *n[2], *n[3], zero_normals_);
+      return regular_vertex_limit<N, Surface>(here, ring(n), zero_normals_);
     };
     for (int row = 0; row < k; ++row) {
       for (int c = 0; c + row <= k; ++c) {
@@ -70,14 +67,24 @@ class TriangleLattice {
   static std::size_t index(int k, int r, int c) {
     return static_cast<std::size_t>(r * (k + 1) - r * (r - 1) / 2 + c);
   }
-  static AxisRing<N> ring(const std::vector<Vec3<N>>& p, int k, int r, int c) {
-    const auto at = [&](int i, int j) -> const Vec3<N>& { return p[index(k, i, j)]; };
+  /// The corner of the face that lies there, or -1.
+  static int corner_of(int k, int r, int c) { return r == k ? 0 : c == k ? 1 : r == 0 && c == 0 ? 2 : -1; }
+  static bool on_boundary(int k, int r, int c) { return r == 0 || c == 0 || r + c == k; }
+
+  /// Counter-clockwise: all six from the next in the row on; on the boundary those there are, from one end along it to
+  /// the other; at a corner both.
+  using Neighbours = std::array<const Vec3<N>*, 6>;
+  static Neighbours neighbours(const std::vector<Vec3<N>>& p, int k, int r, int c) {
+    const auto at = [&](int i, int j) { return &p[index(k, i, j)]; };
+    if (r == 0 && c == 0) return {at(1, 0), at(0, 1)};
+    if (r == k) return {at(k - 1, 1), at(k - 1, 0)};
+    if (c == k) return {at(0, k - 1), at(1, k - 1)};
+    if (r == 0) return {at(r, c - 1), at(r + 1, c - 1), at(r + 1, c), at(r, c + 1)};
+    if (c == 0) return {at(r + 1, c), at(r, c + 1), at(r - 1, c + 1), at(r - 1, c)};
+    if (r + c == k) return {at(r - 1, c + 1), at(r - 1, c), at(r, c - 1), at(r + 1, c - 1)};
     return {at(r, c + 1), at(r - 1, c + 1), at(r - 1, c), at(r, c - 1), at(r + 1, c - 1), at(r + 1, c)};
   }
-  Vertex boundary(const Vec3<N>& v, const Vec3<N>& e, const Vec3<N>& ne, const Vec3<N>& nw,
-                  const Vec3<N>& w) {
-    return boundary_vertex_limit<N, Surface>(v, e, ne, nw, w, zero_normals_);
-  }
+  static AxisRing<N> ring(const Neighbours& n) { return {*n[0], *n[1], *n[2], *n[3], *n[4], *n[5]}; }
 
   /// `held`: corners that stay where they are.
   static void refine(int k, const std::array<bool, 3>& held, const std::vector<Vec3<N>>& p,
@@ -87,21 +94,14 @@ class TriangleLattice {
     for (int r = 0; r <= k; ++r) {
       for (int c = 0; c + r <= k; ++c) {
         const Vec3<N>& v = at(r, c);
-        if (r == 0 && c == 0) {
-          put(0, 0) = held[2] ? v : curve_vertex(v, at(1, 0), at(0, 1));
-        } else if (r == k) {
-          put(2 * k, 0) = held[0] ? v : curve_vertex(v, at(k - 1, 1), at(k - 1, 0));
-        } else if (c == k) {
-          put(0, 2 * k) = held[1] ? v : curve_vertex(v, at(0, k - 1), at(1, k - 1));
-        } else if (r == 0) {
-          put(0, 2 * c) = curve_vertex(v, at(0, c - 1), at(0, c + 1));
-        } else if (c == 0) {
-          put(2 * r, 0) = curve_vertex(v, at(r + 1, 0), at(r - 1, 0));
-        } else if (r + c == k) {
-          put(2 * r, 2 * c) = curve_vertex(v, at(r - 1, c + 1), at(r + 1, c - 1));
-        } else {
-          put(2 * r, 2 * c) = regular_vertex(v, ring(p, k, r, c));
-        }
+        const Neighbours n = neighbours(p, k, r, c);
+        const int corner = corner_of(k, r, c);
+        if (corner >= 0)
+          put(2 * r, 2 * c) = held[static_cast<std::size_t>(corner)] ? v : curve_vertex(v, *n[0], *n[1]);
+        else if (on_boundary(k, r, c))
+          put(2 * r, 2 * c) = curve_vertex(v, *n[0], *n[3]);
+        else
+          put(2 * r, 2 * c) = regular_vertex(v, ring(n));
         if (r + c == k) continue;
         const Vec3<N>&right = at(r, c + 1), &down = at(r + 1, c);
         put(2 * r, 2 * c + 1) = r == 0 ? midpoint(v, right) : edge_point(v, right, at(r - 1, c + 1), down);

@@ -27,7 +27,7 @@ declare -A sources=(
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"
   [quadbits]="fast/stream/host/quad_row_stream_test.cpp fast/stream/host/quad_row_stream.cpp fast/stream/gather/rings.cpp
     fast/stream/kernel/quad_targets.cpp"
-  [parts]="fast/window/quad_tessellator_test.cpp fast/window/tessellator.cpp fast/plan/crack.cpp"
+  [parts]="fast/stream/host/frame_test.cpp fast/window/tessellator.cpp fast/plan/crack.cpp"
   [darts]="fast/rules/ring_test.cpp fast/rules/quad_limit.cpp")
 
 # compile FINDER FOLDER FILE: its objects, into the folder those alone that depend on the file.

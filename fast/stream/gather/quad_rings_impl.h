@@ -15,26 +15,11 @@
 #include "data/error.h"
 #include "fast/rules/prepared_quads.h"
 #include "fast/stream/gather/quad_rings.h"
+#include "fast/stream/gather/rings_impl.h"
 
 namespace limitcheck::fast::row_stream {
 
 namespace detail {
-
-// Where a closed ring of edge and face neighbours, read from there on, is lexicographically smallest.
-template <class W>
-int canonical_quad_start(const QuadStar<W>& star) {
-  const int count = star.size();
-  int best = 0;
-  for (int k = 2; k < count; k += 2) {
-    for (int t = 0; t < count; ++t) {
-      const Vec3<W>&a = star.ring[(k + t) % count], &b = star.ring[(best + t) % count];
-      if (a == b) continue;
-      if (a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z) best = k;
-      break;
-    }
-  }
-  return best;
-}
 
 // k0 .. k4 of a QuadCornerBlock. A dart's centre does not come from sums.
 template <class W>
@@ -101,7 +86,8 @@ void BasicQuadRings<T>::make_vertex(const QuadMesh& mesh, std::int32_t v, Scratc
   const std::span<const StarTags> steps = scratch.semi_sharp.steps(v);
   int start = 0;
   if constexpr (std::is_floating_point_v<T>) {
-    if (!star.open) start = detail::canonical_quad_start(star);
+    if (!star.open)
+      start = static_cast<int>(canonical_start(star.ring, static_cast<std::size_t>(star.size()), 2));
   }
   std::rotate(star.ring, star.ring + start, star.ring + star.size());
   for (int k = 0; k < star.faces; ++k) {

@@ -14,18 +14,19 @@
 namespace limitcheck::fast::row_stream {
 
 /// Where a closed ring, read from there on, is lexicographically smallest.
+///   step   only every so many points are such a place
 template <class W>
-std::size_t canonical_start(const Vec3<W>* ring, std::size_t n) {
+std::size_t canonical_start(const Vec3<W>* ring, std::size_t n, std::size_t step = 1) {
   std::size_t best = 0;
   bool unique = true;
-  for (std::size_t k = 1; k < n; ++k) {
+  for (std::size_t k = step; k < n; k += step) {
     const bool less = ring[k].x < ring[best].x;
     unique = less | (unique & (ring[k].x != ring[best].x));
     best = less ? k : best;
   }
   if (unique) return best;
   best = 0;
-  for (std::size_t k = 1; k < n; ++k) {
+  for (std::size_t k = step; k < n; k += step) {
     for (std::size_t t = 0; t < n; ++t) {
       const Vec3<W>&a = ring[(k + t) % n], &b = ring[(best + t) % n];
       if (a == b) continue;

@@ -56,29 +56,6 @@ TEST(LineStream, WritesItsBytesAndNoOthersWhateverTheAlignment) {
   }
 }
 
-TEST(RowStreamOutput, StreamedIsWholeByteForByte) {
-  for (const auto& mesh : {shaken(grid_torus(5, 7), .2, 1), shaken(grid_sheet(3, 5), .1, 2), tetrahedron()}) {
-    const Adjacency adjacency(mesh);
-    for (const Kernel& kernel : kernels()) {
-      if (!kernel.fused && kernel.lanes > 1) continue;  // slow, and the same code
-      const RowStream stream(mesh, adjacency, kernel);
-      for (int depth = 0; depth <= 6; ++depth) {
-        const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
-        const std::size_t count = grids.size() * static_cast<std::size_t>(side(depth) * side(depth));
-        Workspace workspace;
-        std::vector<Vertex> whole(count);
-        stream.whole(grids, depth, workspace, whole.data());
-        const Vertex guard{{-1, -2, -3}, {-4, -5, -6}};
-        std::vector<Vertex> streamed(count + 2, guard);
-        stream.streamed(grids, depth, workspace, streamed.data() + 1);
-        ASSERT_EQ(std::memcmp(streamed.data() + 1, whole.data(), count * sizeof(Vertex)), 0) << depth;
-        EXPECT_EQ(std::memcmp(&streamed.front(), &guard, sizeof guard), 0);
-        EXPECT_EQ(std::memcmp(&streamed.back(), &guard, sizeof guard), 0);
-      }
-    }
-  }
-}
-
 // Normals all over the sphere, on the octahedron's edges and corners too.
 std::vector<Vertex> normals() {
   data::SplitMix64 random(3);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "fast/stream/gather/alone.h"
 #include "fast/stream/gather/quad_batch.h"
@@ -114,25 +115,18 @@ QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
       semi_sharp_(mesh.semi_sharp() ? std::make_shared<const SemiSharpQuads>(mesh) : nullptr) {}
 
 std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
-  struct Key {
-    std::uint64_t valences;
-    std::int32_t face;
-  };
-  std::vector<Key> keys;
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys;  // by class and valences
   keys.reserve(faces.size());
   for (const std::int32_t f : faces) {
-    std::uint64_t key = static_cast<std::uint64_t>(rings_.kind(f));
-    for (int k = 0; k < 4; ++k) {
-      const auto entries = static_cast<std::uint64_t>(rings_.corner(4 * f + k).entries);
-      key = key << 12 | std::min<std::uint64_t>(entries, 4095);
-    }
-    keys.push_back({key, f});
+    auto key = static_cast<std::uint64_t>(rings_.kind(f));
+    for (int k = 0; k < 4; ++k)
+      key = key << 12 | static_cast<std::uint64_t>(std::min(rings_.corner(4 * f + k).entries, 4095));
+    keys.emplace_back(key, f);
   }
-  std::stable_sort(keys.begin(), keys.end(),
-                   [](const Key& a, const Key& b) { return a.valences < b.valences; });
+  std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::int32_t> order;
   order.reserve(faces.size());
-  for (const Key& key : keys) order.push_back(key.face);
+  for (const auto& key : keys) order.push_back(key.second);
   return order;
 }
 

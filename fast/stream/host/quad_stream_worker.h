@@ -24,7 +24,7 @@ struct QuadPart {
 /// Quads of one depth that go together, as strips; or one face that needs something else.
 struct QuadFrameBatch {
   int depth;  // of the quads; -1: a face by itself
-  std::span<const QuadPart> parts;
+  std::span<const QuadPart> items;
 };
 
 /// What all threads read.
@@ -45,24 +45,25 @@ class QuadStreamWorker {
   template <class MakeWriter>
   void run(const QuadStreamFrame& frame, const QuadFrameBatch& batch, MakeWriter&& make_writer) {
     if (batch.depth < 0) {
-      const std::size_t i = batch.parts.front().patch;
+      const std::size_t i = batch.items.front().patch;
       auto writer = make_writer(i);
-      return alone(frame, frame.patches[i], writer);
+      return show_repaired<float>(frame.patches[i], frame.faces, frame.plan, frame.centre,
+                                  Points{frame, *this}, border_, writer);
     }
     using Writer = decltype(make_writer(std::size_t{}));
     std::vector<Writer> writers;
-    writers.reserve(batch.parts.size());
+    writers.reserve(batch.items.size());
     quads_.clear();
-    for (const QuadPart& part : batch.parts) {
+    for (const QuadPart& part : batch.items) {
       const QuadPatch& patch = frame.patches[part.patch];
       writers.push_back(make_writer(part.patch));
-      writers.back().skip(std::int64_t{part.part} * frame.faces.part_size(patch.depth));
-      quads_.push_back(frame.faces.quad(patch.face, part.part));
+      if constexpr (requires(Writer writer) { writer.go_to(0); }) writers.back().go_to(part.part);
+      quads_.push_back(frame.faces.quad(patch.face.face, part.part));
     }
     if constexpr (requires(Writer writer) { writer.grid(0); }) {
       if (frame.placed) {
         std::array<Vertex*, kMaxLanes> places;
-        for (std::size_t i = 0; i < writers.size(); ++i) places[i] = writers[i].grid(batch.parts[i].part);
+        for (std::size_t i = 0; i < writers.size(); ++i) places[i] = writers[i].grid(batch.items[i].part);
         return frame.stream.put(quads_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
       }
     }
@@ -79,7 +80,7 @@ class QuadStreamWorker {
           const int last = 1 << view.depth;
           for (std::size_t lane = 0; lane < view.index.size(); ++lane) {
             const std::uint32_t i = view.index[lane];
-            c.writers[i].strip(c.batch.parts[i].part, view.j - 1,
+            c.writers[i].strip(c.batch.items[i].part, view.j - 1,
                                RowPair<float>{view.before(lane) + last, view.vertices(lane) + last, -1});
           }
         },
@@ -88,47 +89,43 @@ class QuadStreamWorker {
 
   /// Bytes of its own, writers aside.
   std::size_t bytes() const {
-    std::size_t count = points_.points.capacity();
+    std::size_t count = grid_.capacity();
     for (const auto& points : border_) count += points.capacity();
     return workspace_.bytes() + sizeof(Vertex) * count;
   }
 
  private:
-  template <class Writer>
-  void alone(const QuadStreamFrame& frame, const QuadPatch& patch, Writer& writer) {
-    const QuadFaces& faces = frame.faces;
-    const std::int32_t f = patch.face;
-    const std::int32_t first = faces.first_side(f);
-    if (corners_only(patch, faces))
-      return writer.corners([&](int k) { return frame.stream.limit(faces.vertex(first + k)); });
-    const auto limit = [&](std::int32_t v) { return frame.stream.limit(v); };
-    const auto edge = [&](std::int32_t h, int depth, Vertex* out) {
-      frame.stream.edges({&h, 1}, depth, workspace_, out, &frame.few_lanes);
-    };
-    border_.resize(static_cast<std::size_t>(faces.sides(f)));
-    for (int s = 0; s < faces.sides(f); ++s)
-      evaluate_side<float>(faces, first + s, frame.plan.edge_depth[first + s], limit, edge, border_[s]);
-    if (patch.display == Display::kFan) {
-      const auto position = [&](std::int32_t v) { return frame.stream.control(v); };
-      const auto middle_of_quad = [&] {
-        std::array<Vertex, 9> points;  // of depth 1
-        frame.stream.whole({&f, 1}, 1, workspace_, points.data(), &frame.few_lanes);
-        return points[4];
-      };
-      return writer.fan(face_centre<float>(faces, f, frame.centre, position, limit, middle_of_quad), border_);
+  /// The points of a face that is by itself, see show_repaired().
+  struct Points {
+    const QuadStreamFrame& frame;
+    QuadStreamWorker& worker;
+
+    Vec3<float> position(std::int32_t v) const { return frame.stream.control(v); }
+    Vertex limit(std::int32_t v) const { return frame.stream.limit(v); }
+    void edge(std::int32_t h, int depth, Vertex* out) const {
+      frame.stream.edges({&h, 1}, depth, worker.workspace_, out, &frame.few_lanes);
     }
-    quads_.clear();
-    for (int part = 0; part < faces.parts(f); ++part) quads_.push_back(faces.quad(f, part));
-    points_.resize(faces.parts(f), faces.part_size(patch.depth));
-    frame.stream.whole(quads_, patch.depth - (faces.cut() ? 1 : 0), workspace_, points_.points.data(),
-                       &frame.few_lanes);
-    writer.stitch(points_, border_);
-  }
+    Vertex middle(std::int32_t quad) const {
+      std::array<Vertex, 9> points;  // of depth 1
+      frame.stream.whole({&quad, 1}, 1, worker.workspace_, points.data(), &frame.few_lanes);
+      return points[4];
+    }
+    const Vertex* grid(const QuadPatch& patch) const {
+      const QuadFaces& faces = frame.faces;
+      worker.quads_.clear();
+      for (int part = 0; part < patch.face.parts; ++part)
+        worker.quads_.push_back(faces.quad(patch.face.face, part));
+      worker.grid_.resize(static_cast<std::size_t>(patch.face.parts * patch.face.block().size()));
+      frame.stream.whole(worker.quads_, patch.depth - (faces.cut() ? 1 : 0), worker.workspace_,
+                         worker.grid_.data(), &frame.few_lanes);
+      return worker.grid_.data();
+    }
+  };
 
   Workspace workspace_;
   std::vector<std::int32_t> quads_;
   QuadBorder<float> border_;
-  FacePoints<float> points_;
+  std::vector<Vertex> grid_;  // of a stitched face
 };
 
 }  // namespace limitcheck::fast::row_stream

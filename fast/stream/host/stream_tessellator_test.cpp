@@ -65,45 +65,6 @@ TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
   RecordProperty("compared", std::to_string(compared));
 }
 
-// No crack and no T-vertex: every directed edge of the indexed mesh's triangles has its opposite, for shared
-// vertices have one index; and no point at a border differs in bits by the face that it comes from.
-void expect_closed(const data::ControlMesh& mesh, data::Scheme scheme, std::uint64_t seeds) {
-  for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-    StreamTessellator tessellator(mesh, options_of(scheme, repair));
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-      const auto depth = random_depths(mesh.faces.size(), 0, 4, seed);
-      IndexedMesh<float> out;
-      tessellator.frame(depth, out);
-      std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-      for (const auto& t : out.triangles)
-        for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
-      for (const auto& [edge, count] : edges) {
-        ASSERT_EQ(count, 1);
-        ASSERT_TRUE(edges.count({edge.second, edge.first}))
-            << edge.first << " " << edge.second << " seed " << seed;
-      }
-      std::map<std::array<float, 3>, std::array<float, 3>> known;
-      for (const auto& [p, n] : out.vertices) known[{p.x, p.y, p.z}] = {n.x, n.y, n.z};
-      DrawList<float> list;
-      tessellator.frame(depth, list);
-      for (std::size_t v = 0; v < list.vertices.size(); ++v) {
-        const auto& [p, n] = list.vertices[v];
-        const auto found = known.find({p.x, p.y, p.z});
-        ASSERT_NE(found, known.end()) << seed << " " << v;
-        ASSERT_EQ(found->second, (std::array{n.x, n.y, n.z})) << seed << " " << v;
-      }
-    }
-  }
-}
-
-TEST(StreamFrame, ClosesEveryEdgeOfAClosedMeshAtRandomDepths) {
-  for (const auto& mesh : {shaken(tetrahedron(), .2, 1), shaken(grid_torus(4, 5), .2, 2)})
-    expect_closed(mesh, kLoop, 20);
-  for (const auto& mesh : {data::quad_cube(), data::quad_torus(6, 5), data::pawn(5), data::mixed_pawn(5),
-                           data::creased_cube(2), data::crease_ring(1, 5)})
-    expect_closed(mesh, kQuads, 6);
-}
-
 TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
   auto pawn = data::pawn(6);
   pawn.sharpness.vertices.push_back({pawn.faces[2][0], 1.5F});

@@ -33,47 +33,43 @@ inline constexpr std::size_t kDeliveries = 5;
 struct LoopBatch {
   Delivery delivery;
   int depth;
-  std::span<const std::size_t> patches;
+  std::span<const std::size_t> items;  // patches
 };
 
-/// Batches of at most `lanes` patches, or `few` of those delivered whole. In a fixed order.
-class LoopBatches {
+/// Patches by depth and delivery.
+class SortedPatches {
  public:
-  /// Of patches first .. last - 1 but those skipped.
+  /// Of patches first .. last - 1 but those skipped: batches of at most `lanes`, or `few` of those delivered whole. In a
+  /// fixed order.
   ///   placed   patches of two displayed faces have a place each, where the rows lie as they come from C
-  template <class Skip>
-  void make(std::span<const LoopPatch> patches, std::size_t first, std::size_t last, Skip&& skip,
-            std::size_t lanes, std::size_t few, bool placed) {
-    for (auto& list : sorted_) list.clear();
-    batches_.clear();
-    count_ = 0;
+  template <class Skipped>
+  void sort(std::span<const LoopPatch> patches, std::size_t first, std::size_t last, Skipped&& skipped,
+            std::size_t lanes, std::size_t few, bool placed, std::vector<LoopBatch>& batches) {
+    for (auto& list : lists_) list.clear();
+    batches.clear();
     for (std::size_t i = first; i < last; ++i) {
-      if (skip(i)) continue;
-      ++count_;
-      sorted_[static_cast<std::size_t>(delivery_of(patches[i], placed)) +
-              kDeliveries * static_cast<std::size_t>(patches[i].depth)]
+      if (skipped(i)) continue;
+      lists_[static_cast<std::size_t>(delivery_of(patches[i], placed)) +
+             kDeliveries * static_cast<std::size_t>(patches[i].depth)]
           .push_back(i);
     }
     // A remainder joins the row batches, which would leave lanes empty, too.
     for (std::size_t depth = 0; depth <= kMaxDepth && placed; ++depth) {
-      auto& pairs = sorted_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kPlaced)];
-      auto& rows = sorted_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kRowsFromC)];
+      auto& pairs = lists_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kPlaced)];
+      auto& rows = lists_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kRowsFromC)];
       const std::size_t full = pairs.size() / lanes * lanes;
       rows.insert(rows.end(), pairs.begin() + static_cast<std::ptrdiff_t>(full), pairs.end());
       pairs.resize(full);
     }
-    for (std::size_t k = 0; k < sorted_.size(); ++k) {
+    for (std::size_t k = 0; k < lists_.size(); ++k) {
       const auto delivery = static_cast<Delivery>(k % kDeliveries);
       const std::size_t most = delivery == Delivery::kWhole ? few : lanes;
-      const std::span<const std::size_t> list(sorted_[k]);
+      const std::span<const std::size_t> list(lists_[k]);
       for (std::size_t at = 0; at < list.size(); at += most)
-        batches_.push_back({delivery, static_cast<int>(k / kDeliveries),
-                            list.subspan(at, std::min(most, list.size() - at))});
+        batches.push_back({delivery, static_cast<int>(k / kDeliveries),
+                           list.subspan(at, std::min(most, list.size() - at))});
     }
   }
-  const std::vector<LoopBatch>& list() const { return batches_; }
-  /// Patches in all of them.
-  std::size_t count() const { return count_; }
 
  private:
   static Delivery delivery_of(const LoopPatch& patch, bool placed) {
@@ -84,9 +80,7 @@ class LoopBatches {
     return first.uses_window() ? Delivery::kRowsFromC : Delivery::kRowsFromA;
   }
 
-  std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> sorted_;
-  std::vector<LoopBatch> batches_;
-  std::size_t count_ = 0;
+  std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> lists_;
 };
 
 /// The border points of a batch's repaired faces: edges of one depth go together, one in each lane.
@@ -173,49 +167,45 @@ struct LoopStreamFrame {
 
 class LoopStreamWorker {
  public:
-  LoopDrawWriter<float>::Scratch& scratch() { return scratch_; }
-
-  /// make_writer(patch index, worker) gives each patch its writer.
+  /// make_writer(patch index) gives each patch its writer.
   template <class MakeWriter>
   void run(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
-    using Writer = decltype(make_writer(std::size_t{}, *this));
-    if constexpr (requires(Writer writer) { writer.grid(); }) {
+    using Writer = decltype(make_writer(std::size_t{}));
+    if constexpr (requires(Writer writer) { writer.grid(0); }) {
       if (batch.delivery == Delivery::kPlaced) return place(frame, batch, make_writer);
     }
-    border_.evaluate(frame.stream, frame.few_lanes, frame.patches, frame.plan, batch.patches, workspace_);
+    border_.evaluate(frame.stream, frame.few_lanes, frame.patches, frame.plan, batch.items, workspace_);
     if (batch.delivery == Delivery::kRowsFromA || batch.delivery == Delivery::kRowsFromC) {
       std::vector<Writer> writers;
-      writers.reserve(batch.patches.size());
-      for (const std::size_t i : batch.patches) writers.push_back(make_writer(i, *this));
+      writers.reserve(batch.items.size());
+      for (const std::size_t i : batch.items) writers.push_back(make_writer(i));
       rows(frame, batch, writers);
       for (std::size_t lane = 0; lane < writers.size(); ++lane) repairs(frame, batch, lane, writers[lane]);
       return;
     }
     if (batch.delivery == Delivery::kWhole) evaluate_whole(frame, batch);
-    for (std::size_t lane = 0; lane < batch.patches.size(); ++lane) {
-      auto writer = make_writer(batch.patches[lane], *this);
-      if (batch.delivery == Delivery::kWhole) whole(frame.patches[batch.patches[lane]], lane, writer);
+    for (std::size_t lane = 0; lane < batch.items.size(); ++lane) {
+      auto writer = make_writer(batch.items[lane]);
+      if (batch.delivery == Delivery::kWhole) whole(frame.patches[batch.items[lane]], lane, writer);
       repairs(frame, batch, lane, writer);
     }
   }
 
   /// Bytes of its own, writers aside.
-  std::size_t bytes() const {
-    return workspace_.bytes() + border_.bytes() + sizeof(Vertex) * scratch_.inner.capacity();
-  }
+  std::size_t bytes() const { return workspace_.bytes() + border_.bytes(); }
 
  private:
   void collect(const LoopStreamFrame& frame, const LoopBatch& batch) {
     grids_.clear();
-    for (const std::size_t i : batch.patches) grids_.push_back(frame.grids[i]);
+    for (const std::size_t i : batch.items) grids_.push_back(frame.grids[i]);
   }
 
   template <class MakeWriter>
   void place(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     collect(frame, batch);
     std::array<Vertex*, kMaxLanes> places;
-    for (std::size_t lane = 0; lane < batch.patches.size(); ++lane)
-      places[lane] = make_writer(batch.patches[lane], *this).grid();
+    for (std::size_t lane = 0; lane < batch.items.size(); ++lane)
+      places[lane] = make_writer(batch.items[lane]).grid(LoopPatch::kWhole);
     frame.stream.put(grids_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
   }
 
@@ -235,7 +225,7 @@ class LoopStreamWorker {
           Context& c = *static_cast<Context*>(opaque);
           for (std::size_t lane = 0; lane < view.size(); ++lane) {
             const std::size_t i = view.number(lane);
-            take_rows(c.frame.patches[c.batch.patches[i]], view, lane, c.batch.delivery, c.writers[i]);
+            take_rows(c.frame.patches[c.batch.items[i]], view, lane, c.batch.delivery, c.writers[i]);
           }
         },
         &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA, Kept::kTwoRows);
@@ -248,10 +238,8 @@ class LoopStreamWorker {
                         Writer& writer) {
     const int last = 1 << view.depth;
     const RowPair<float> strip{view.before(lane) + last, view.vertices(lane) + last, -1};
-    if (patch.full())
-      writer.whole_strip(view.j - 1, strip);
-    else
-      writer.half_strip(delivery == Delivery::kRowsFromC ? 0 : 1, view.j - 1, strip);
+    const int part = patch.full() ? LoopPatch::kWhole : delivery == Delivery::kRowsFromC ? 0 : 1;
+    writer.strip(part, view.j - 1, strip);
   }
 
   void evaluate_whole(const LoopStreamFrame& frame, const LoopBatch& batch) {
@@ -259,21 +247,25 @@ class LoopStreamWorker {
     const auto n = static_cast<std::size_t>(side(batch.depth));
     // The grids lie behind what the kernel needs of the same memory, so that frames need no more than rows.
     const auto kernels_own = static_cast<std::size_t>(frame.few_lanes.lanes * work_size(batch.depth));
-    workspace_.work.grow(kernels_own + 6 * batch.patches.size() * n * n);
+    workspace_.work.grow(kernels_own + 6 * batch.items.size() * n * n);
     whole_ = reinterpret_cast<Vertex*>(workspace_.work.data() + kernels_own);
     frame.stream.whole(grids_, batch.depth, workspace_, whole_, &frame.few_lanes);
   }
 
+  const Vertex* grid_of(const LoopPatch& patch, std::size_t lane) const {
+    return whole_ + lane * static_cast<std::size_t>(patch.block(LoopPatch::kWhole).size());
+  }
   // The strips of each half in its own frame: row r of face0's is our row k - r, of face1's our row r.
   template <class Writer>
   void whole(const LoopPatch& patch, std::size_t lane, Writer& writer) {
-    const int k = 1 << patch.depth;
-    const Vertex* points = whole_ + lane * static_cast<std::size_t>((k + 1) * (k + 1));
+    const int k = patch.k();
+    const Vertex* points = grid_of(patch, lane);
     for (int h = 0; h < 2; ++h) {
-      if (!patch.half[h].uses_window()) continue;
+      if (patch.half[h].display == Display::kStitch) inner_strips(patch, h, points, writer);
+      if (patch.half[h].display != Display::kStrips) continue;
       for (int row = 0; row < k; ++row) {
         const Vertex *first = points + (k - row) * (k + 1), *last = points + row * (k + 1) + k;
-        writer.half_strip(
+        writer.strip(
             h, row,
             h == 0 ? RowPair<float>{first, first - (k + 1), 1} : RowPair<float>{last, last + (k + 1), -1});
       }
@@ -282,10 +274,10 @@ class LoopStreamWorker {
 
   template <class Writer>
   void repairs(const LoopStreamFrame& frame, const LoopBatch& batch, std::size_t lane, Writer& writer) {
-    const LoopPatch& patch = frame.patches[batch.patches[lane]];
+    const LoopPatch& patch = frame.patches[batch.items[lane]];
     for (int s = 0; s < 2; ++s) {
       const Half& half = patch.half[s];
-      if (half.display == Display::kStitch) writer.ring(s, border_.of(lane, s));
+      if (half.display == Display::kStitch) writer.ring(s, grid_of(patch, lane), border_.of(lane, s));
       if (half.display == Display::kFan) writer.fan(s, centre(frame, half.face), border_.of(lane, s));
     }
   }
@@ -305,7 +297,6 @@ class LoopStreamWorker {
   BorderPoints border_;
   std::vector<Grid> grids_;
   Vertex* whole_ = nullptr;  // in workspace_.work
-  LoopDrawWriter<float>::Scratch scratch_;
   std::optional<FanCentreEvaluator<float>> centre_;
 };
 

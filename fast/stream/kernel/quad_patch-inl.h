@@ -124,7 +124,7 @@ class QuadPatch {
     value = N::fma(q, t, a);
   }
 
-  // The inside of a row, see scatter_row.
+  // The inside of a row, see begin_vertex().
   class Inside {
    public:
     HWY_ATTR HWY_INLINE Inside(const Scalar* row, const V* centre, Scalar unit, double step)
@@ -132,31 +132,10 @@ class QuadPatch {
       for (int c = 0; c < 3; ++c) centre_[c] = centre[c];
     }
     template <bool odd>
-    HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
-      V along[3], across[3];
+    HWY_ATTR HWY_INLINE void advance() {
       t_ = t_ + step_;  // exact
-      for (int c = 0; c < 3; ++c) coordinate(c, v, along, across);
-      v.set_normal(along, across);
-      v.set_square();
     }
     template <bool odd>
-    HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
-      V along[3], across[3];
-      t_ = t_ + step_;
-      other.root_1();
-      coordinate(0, v, along, across);
-      other.root_2();
-      coordinate(1, v, along, across);
-      other.root_3();
-      coordinate(2, v, along, across);
-      other.root_4();
-      v.set_normal(along, across);
-      other.scale();
-      v.set_square();
-    }
-
-   private:
-    HWY_ATTR HWY_INLINE V number(int k) const { return N::load(row_ + k * L); }
     HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
       V value;
       evaluate(number(c), number(3 + c), number(6 + c), number(9 + c), t_, value, along[c]);
@@ -164,6 +143,9 @@ class QuadPatch {
       across[c] =
           N::fma(N::fma(N::fma(number(21 + c), t_, number(18 + c)), t_, number(15 + c)), t_, number(12 + c));
     }
+
+   private:
+    HWY_ATTR HWY_INLINE V number(int k) const { return N::load(row_ + k * L); }
 
     const Scalar* row_;
     V centre_[3], unit_, t_, step_;
@@ -173,16 +155,11 @@ class QuadPatch {
                          const typename To::Row& to) {
     const int size = 1 << depth_;
     if (size == 1) return to.couple(0, first, last);
-    Vertex<N> a = first, b;
-    for (int i = 0; i < size; i += 2) {
-      curve(side, side == kAB ? i + 1 : size - i - 1, b);
-      b.finish();
-      to.couple(i, a, b);
-      if (i + 2 == size) break;
-      curve(side, side == kAB ? i + 2 : size - i - 2, a);
-      a.finish();
-    }
-    to.vertex(size, last);
+    const auto point = [&](int i, Vertex<N>& v) HWY_ATTR {
+      curve(side, side == kAB ? i : size - i, v);
+      v.finish();
+    };
+    scatter_points<N>(point, size, first, last, to);
   }
 
   const Scalar* input_;

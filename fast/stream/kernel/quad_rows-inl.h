@@ -131,40 +131,12 @@ class QuadLimitRow {
     for (int c = 0; c < 3; ++c) filter(c * L, p1_[c], q1_[c]);
   }
 
-  /// Position and direction of the normal of the next point.
+  /// See begin_vertex().
   template <bool odd>
-  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
-    V along[3], across[3];
+  HWY_ATTR HWY_INLINE void advance() {
     s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
-    coordinate(0, v, along, across);
-    coordinate(1, v, along, across);
-    coordinate(2, v, along, across);
-    v.set_normal(along, across);
-    v.set_square();
   }
-  /// The same, and the end of another vertex.
   template <bool odd>
-  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
-    V along[3], across[3];
-    s_ += 3 * L, m_ += 3 * L, n_ += 3 * L;
-    other.root_1();
-    coordinate(0, v, along, across);
-    other.root_2();
-    coordinate(1, v, along, across);
-    other.root_3();
-    coordinate(2, v, along, across);
-    other.root_4();
-    v.set_normal(along, across);
-    other.scale();
-    v.set_square();
-  }
-
- private:
-  HWY_ATTR HWY_INLINE void filter(int k, V& p, V& q) const {
-    const V s = N::load(s_ + k), n = N::load(n_ + k);
-    p = N::fma(four_, N::load(m_ + k), s + n);
-    q = n - s;
-  }
   HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
     V p, q;
     filter(c * L, p, q);
@@ -173,6 +145,13 @@ class QuadLimitRow {
     across[c] = N::fma(four_, q1_[c], q0_[c] + q);
     p0_[c] = p1_[c], p1_[c] = p;
     q0_[c] = q1_[c], q1_[c] = q;
+  }
+
+ private:
+  HWY_ATTR HWY_INLINE void filter(int k, V& p, V& q) const {
+    const V s = N::load(s_ + k), n = N::load(n_ + k);
+    p = N::fma(four_, N::load(m_ + k), s + n);
+    q = n - s;
   }
 
   const Scalar *s_, *m_, *n_;
@@ -208,28 +187,27 @@ class FusedLimitRow {
     for (int c = 0; c < 3; ++c) filter(c * L, p_[c][2], q_[c][2]);
   }
 
+  /// See begin_vertex().
   template <bool odd>
-  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v) {
-    V along[3], across[3];
+  HWY_ATTR HWY_INLINE void advance() {
     if constexpr (odd) next();
-    for (int c = 0; c < 3; ++c) coordinate<odd>(c, v, along, across);
-    v.set_normal(along, across);
-    v.set_square();
   }
   template <bool odd>
-  HWY_ATTR HWY_INLINE void begin(Vertex<N>& v, Vertex<N>& other) {
-    V along[3], across[3];
-    if constexpr (odd) next();
-    other.root_1();
-    coordinate<odd>(0, v, along, across);
-    other.root_2();
-    coordinate<odd>(1, v, along, across);
-    other.root_3();
-    coordinate<odd>(2, v, along, across);
-    other.root_4();
-    v.set_normal(along, across);
-    other.scale();
-    v.set_square();
+  HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
+    V *p = p_[c], *q = q_[c];
+    if constexpr (odd) {
+      V p3, q3;
+      filter(c * L, p3, q3);
+      v.position[c] = N::fma(halfway(p[0], p[1], p[2], p3), odd_unit_, centre_[c]);
+      along[c] = slope_halfway(p[0], p[1], p[2], p3);
+      across[c] = halfway(q[0], q[1], q[2], q3);
+      p[0] = p[1], p[1] = p[2], p[2] = p3;
+      q[0] = q[1], q[1] = q[2], q[2] = q3;
+    } else {
+      v.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), even_unit_, centre_[c]);
+      along[c] = p[2] - p[0];
+      across[c] = limit_filter<N>(q[0], q[1], q[2]);
+    }
   }
 
  private:
@@ -249,24 +227,6 @@ class FusedLimitRow {
     }
   }
   HWY_ATTR HWY_INLINE void next() { s_ += 3 * L, m_ += 3 * L, n_ += 3 * L, o_ += 3 * L; }
-
-  template <bool odd>
-  HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) {
-    V *p = p_[c], *q = q_[c];
-    if constexpr (odd) {
-      V p3, q3;
-      filter(c * L, p3, q3);
-      v.position[c] = N::fma(halfway(p[0], p[1], p[2], p3), odd_unit_, centre_[c]);
-      along[c] = slope_halfway(p[0], p[1], p[2], p3);
-      across[c] = halfway(q[0], q[1], q[2], q3);
-      p[0] = p[1], p[1] = p[2], p[2] = p3;
-      q[0] = q[1], q[1] = q[2], q[2] = q3;
-    } else {
-      v.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), even_unit_, centre_[c]);
-      along[c] = p[2] - p[0];
-      across[c] = limit_filter<N>(q[0], q[1], q[2]);
-    }
-  }
 
   const Scalar *s_, *m_, *n_, *o_;
   V p_[3][3], q_[3][3], centre_[3], even_unit_, odd_unit_;
@@ -297,48 +257,61 @@ struct QuadLaneTarget {
 };
 
 /// The inside of a row, points 1 .. size - 1, with its ends given; size even. `points` gives them from 1 on in
-/// turn, and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
+/// turn, see begin_vertex(), and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
 /// next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
 /// cache.
 template <class N, bool far = false, class Points, class Row>
 HWY_ATTR HWY_INLINE void scatter_row(Points& points, int size, const Vertex<N>& first, const Vertex<N>& last,
                                      const Row& to) {
   Vertex<N> a, b;
-  points.template begin<true>(b);
+  begin_vertex<N, true>(points, b);
   if (size == 2) {
-    b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
+    b.end();
     to.couple(0, first, b);
   } else {
-    points.template begin<false>(a, b);
+    begin_vertex<N, false>(points, a, b);
     to.couple(0, first, b);
     for (int i = 2;; i += 2) {
-      points.template begin<true>(b, a);
+      begin_vertex<N, true>(points, b, a);
       if (i + 2 == size) break;
       Vertex<N> next;
-      points.template begin<false>(next, b);
+      begin_vertex<N, false>(points, next, b);
       if constexpr (far) to.expect(i + 8);
       to.couple(i, a, b);
       a = next;
     }
-    b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
+    b.end();
     to.couple(size - 2, a, b);
   }
   to.vertex(size, last);
 }
 
-/// The same to memory of one's own: points 1 .. size - 1, six vectors each, that of point i to out[6 i].
+/// Any points of a row of even size, of which the ends are given: point(i, v) makes point i.
+template <class N, class Point, class Row>
+HWY_ATTR HWY_INLINE void scatter_points(const Point& point, int size, const Vertex<N>& first,
+                                        const Vertex<N>& last, const Row& to) {
+  Vertex<N> a = first, b;
+  for (int i = 0; i < size; i += 2) {
+    if (i > 0) point(i, a);
+    point(i + 1, b);
+    to.couple(i, a, b);
+  }
+  to.vertex(size, last);
+}
+
+/// The inside of a row to memory of one's own: points 1 .. size - 1, six vectors each, that of point i to out[6 i].
 template <class N, class Points>
 HWY_ATTR HWY_INLINE void store_row(Points& points, int size, typename N::Scalar* out) {
   constexpr int step = 6 * N::lanes;
   Vertex<N> a, b;
-  points.template begin<true>(a);
+  begin_vertex<N, true>(points, a);
   for (int i = 2; i < size; ++i) {
     out += step;
-    points.template begin<false>(b, a);
+    begin_vertex<N, false>(points, b, a);
     a.store(out);
     a = b;
   }
-  a.root_1(), a.root_2(), a.root_3(), a.root_4(), a.scale();
+  a.end();
   a.store(out + step);
 }
 

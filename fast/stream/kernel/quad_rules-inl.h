@@ -15,7 +15,6 @@
 #endif
 
 #include "fast/stream/kernel/layout.h"
-#include "fast/stream/kernel/rows-inl.h"
 #include "fast/stream/kernel/rules-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -43,15 +42,6 @@ HWY_ATTR HWY_INLINE V face_rule(V c, V e, V f, V after) {
 template <class N, class V>
 HWY_ATTR HWY_INLINE V ring_edge_rule(V c, V e, V f, V g) {
   return N::fma(N::splat(.25), f + g, c + e);
-}
-
-/// Half the sum of p and q, with few enough digits that moving there and back costs hardly any. The same in
-/// either order. Numbers without rounding have no digits to save.
-template <class N, class V>
-HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
-  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12, a double at 2^-41
-  for (int c = 0; c < 3; ++c)
-    origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
 }
 
 /// One level of a corner: its centre, the sums of differences to its ring, and the ring's entries e f e f ...

@@ -282,11 +282,11 @@ class QuadStream {
     const int size = 1 << depth_, step = 3 * L;
     const auto to = target_.row(side == kAB ? 0 : size);
     const QuadSideLimit<N> limits = limit_next_to(side);
-    Vertex<N> a, b, last;
-    a.load(corner(side == kAB ? kA : kD).limit()), last.load(corner(side == kAB ? kB : kC).limit());
+    Vertex<N> first, last;
+    first.load(corner(side == kAB ? kA : kD).limit()), last.load(corner(side == kAB ? kB : kC).limit());
     if (limits.plain()) {
       QuadLimitRow<N> row(s, m, n, 1, centre_, unit_);
-      return scatter_row<N>(row, size, a, last, to);
+      return scatter_row<N>(row, size, first, last, to);
     }
     const auto point = [&](int i, Vertex<N>& v) HWY_ATTR {
       const int k = 3 * i * L;
@@ -295,12 +295,7 @@ class QuadStream {
                                       {n + k - step, n + k, n + k + step}};
       limits.point(side == kAB ? i : size - i, at, side == kAB ? 2 : 0, v);
     };
-    for (int i = 0; i < size; i += 2) {
-      if (i > 0) point(i, a);
-      point(i + 1, b);
-      to.couple(i, a, b);
-    }
-    to.vertex(size, last);
+    scatter_points<N>(point, size, first, last, to);
   }
 
   HWY_ATTR void inside(const Scalar* s, const Scalar* m, const Scalar* n, int j, const Vertex<N>& first,

@@ -24,22 +24,11 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 template <int lanes>
 using QuadLanes = LaneNumber<hn::CappedTag<float, lanes>>;
 
-template <int lanes>
-HWY_ATTR const char* run_quads(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
+template <int lanes, class Engine, void (Engine::*run)() = &Engine::run>
+HWY_ATTR const char* run_batch(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
                                float* work, const QuadTarget<float>& target) {
-  QuadStream<QuadLanes<lanes>>(batch, placement, work, {target}).run();
-  return target_name(lanes);
-}
-template <int lanes>
-HWY_ATTR const char* run_patches(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                                 float* work, const QuadTarget<float>& target) {
-  QuadPatch<QuadLanes<lanes>>(batch, placement, work, {target}).run();
-  return target_name(lanes);
-}
-template <int lanes>
-HWY_ATTR const char* run_sides(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                               float* work, const QuadTarget<float>& target) {
-  QuadStream<QuadLanes<lanes>>(batch, placement, work, {target}).run_side();
+  Engine engine(batch, placement, work, {target});
+  (engine.*run)();
   return target_name(lanes);
 }
 
@@ -58,8 +47,10 @@ HWY_ATTR void run_in_lines(const QuadBatch<float>& batch, const KernelPlacement<
 void list_quad_kernels([[maybe_unused]] std::vector<QuadKernel>& list) {
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
   for_each_lane_count([&]<int lanes>() {
-    list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_quads<lanes>, &run_patches<lanes>,
-                    &run_sides<lanes>, nullptr, nullptr});
+    using Quads = QuadStream<QuadLanes<lanes>>;
+    list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_batch<lanes, Quads>,
+                    &run_batch<lanes, QuadPatch<QuadLanes<lanes>>>,
+                    &run_batch<lanes, Quads, &Quads::run_side>, nullptr, nullptr});
 #if HWY_TARGET == HWY_AVX3
     if (lanes == 16) {
       list.back().quad_lines = &run_in_lines<QuadStream>;
@@ -80,22 +71,13 @@ namespace {
 
 HWY_EXPORT(list_quad_kernels);
 
-using ScalarStream = generic::QuadStream<ScalarNumber<float>>;
-using ScalarPatch = generic::QuadPatch<ScalarNumber<float>>;
+using ScalarQuads = generic::QuadStream<ScalarNumber<float>>;
 
-const char* run_scalar_quads(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                             float* work, const QuadTarget<float>& target) {
-  ScalarStream(batch, placement, work, {target}).run();
-  return "scalar";
-}
-const char* run_scalar_patches(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                               float* work, const QuadTarget<float>& target) {
-  ScalarPatch(batch, placement, work, {target}).run();
-  return "scalar";
-}
-const char* run_scalar_sides(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                             float* work, const QuadTarget<float>& target) {
-  ScalarStream(batch, placement, work, {target}).run_side();
+template <class Engine, void (Engine::*run)() = &Engine::run>
+const char* run_scalar(const QuadBatch<float>& batch, const KernelPlacement<float>& placement, float* work,
+                       const QuadTarget<float>& target) {
+  Engine engine(batch, placement, work, {target});
+  (engine.*run)();
   return "scalar";
 }
 
@@ -105,8 +87,9 @@ std::span<const QuadKernel> quad_kernels() {
   static const std::vector<QuadKernel> list = [] {
     std::vector<QuadKernel> all;
     ask_every_target([&] { HWY_DYNAMIC_DISPATCH(list_quad_kernels)(all); });
-    all.push_back(
-        {"scalar", 1, false, &run_scalar_quads, &run_scalar_patches, &run_scalar_sides, nullptr, nullptr});
+    all.push_back({"scalar", 1, false, &run_scalar<ScalarQuads>,
+                   &run_scalar<generic::QuadPatch<ScalarNumber<float>>>,
+                   &run_scalar<ScalarQuads, &ScalarQuads::run_side>, nullptr, nullptr});
     return all;
   }();
   return list;

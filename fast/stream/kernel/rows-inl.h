@@ -16,17 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// An origin near an edge, the same from either end, with few enough digits that moving there and back costs
-/// none. Numbers without rounding have no digits to save.
-template <class N, class V>
-HWY_ATTR HWY_INLINE void choose_origin(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
-  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12, a double at 2^-41
-  for (int c = 0; c < 3; ++c) {
-    const int k = (CornerBlock::kCentre + c) * N::lanes;
-    origin[c] = (N::splat(.5) * (N::load(p + k) + N::load(q + k)) + magic) - magic;
-  }
-}
-
 /// A corner block with `width` entries of its window from number `first` on, seen from the origin. May be in
 /// place.
 template <class N, class V>
@@ -126,18 +115,22 @@ HWY_ATTR void refine_odd_row(const typename N::Scalar* m, const typename N::Scal
   }
 }
 
-/// A vertex from its hexagon, a coordinate at a time.
+/// A point seen along an axis, from rows s, m and n, for begin_vertex().
 template <class N, Axis axis>
-struct Tangents {
+struct PointAlong {
   using Scalar = typename N::Scalar;
   using V = typename N::V;
-  V slant[3], across[3];
+  const Scalar *s, *m, *n;
+  const V* centre;
+  V unit;
 
-  HWY_ATTR HWY_INLINE void coordinate(const Scalar* s, const Scalar* m, const Scalar* n, int c,
-                                      const V* centre, V unit, Vertex<N>& to) {
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void advance() const {}
+  template <bool odd>
+  HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&slant)[3], V (&across)[3]) const {
     const int k = c * N::lanes;
     const Limit<V> limit = limit_rule<N>(N::load(m + k), hexagon<N, axis>(s + k, m + k, n + k));
-    to.position[c] = N::fma(limit.position, unit, centre[c]);
+    v.position[c] = N::fma(limit.position, unit, centre[c]);
     slant[c] = limit.slant;
     across[c] = limit.across;
   }
@@ -220,13 +213,13 @@ class LimitRow {
   HWY_ATTR void store(int first, int end, Scalar* to) const {
     if (first >= end) return;
     Vertex<N> a, b;
-    begin(s_ + 3 * first * L, m_ + 3 * first * L, n_ + 3 * first * L, centre_, unit_, a);
+    begin_vertex<N, false>(row_point(first), a);
     for (int i = first + 1; i < end; ++i) {
-      along(s_ + 3 * i * L, m_ + 3 * i * L, n_ + 3 * i * L, centre_, unit_, b, a);
+      begin_vertex<N, false>(row_point(i), b, a);
       a.store(to + 6 * (i - 1) * L);
       a = b;
     }
-    a.root_1(), a.root_2(), a.root_3(), a.root_4(), a.scale();
+    a.end();
     a.store(to + 6 * (end - 1) * L);
   }
 
@@ -252,10 +245,11 @@ class LimitRow {
   template <Axis axis>
   HWY_ATTR HWY_INLINE void point(int i, Vertex<N>& v) const {
     const int k = 3 * i * L;
-    Tangents<N, axis> tangents;
-    for (int c = 0; c < 3; ++c) tangents.coordinate(s_ + k, m_ + k, n_ + k, c, centre_, unit_, v);
-    v.set_normal(tangents.slant, tangents.across);
-    v.finish();
+    begin_vertex<N, false>(PointAlong<N, axis>{s_ + k, m_ + k, n_ + k, centre_, unit_}, v);
+    v.end();
+  }
+  HWY_ATTR HWY_INLINE PointAlong<N, Axis::kRow> row_point(int i) const {
+    return {s_ + 3 * i * L, m_ + 3 * i * L, n_ + 3 * i * L, centre_, unit_};
   }
 
   HWY_ATTR void mixed(int i, const Given& given) const {
@@ -273,49 +267,26 @@ class LimitRow {
   // Points from even `first` to before even `end`. The tangents of a point go with the normalisation of the
   // point before, its own normalisation with the tangents of the next.
   HWY_ATTR void plain(int first, int end) const {
-    const Scalar *s = s_ + 3 * first * L, *m = m_ + 3 * first * L, *n = n_ + 3 * first * L;
     Row to = to_.from(first);
-    const V unit = unit_, centre[3] = {centre_[0], centre_[1], centre_[2]};
-    constexpr int step = 3 * L;
+    const V centre[3] = {centre_[0], centre_[1], centre_[2]};
+    PointAlong<N, Axis::kRow> points = row_point(first);
+    points.centre = centre;
+    const auto next = [&]() HWY_ATTR { points.s += 3 * L, points.m += 3 * L, points.n += 3 * L; };
     Vertex<N> a, b;
-    begin(s, m, n, centre, unit, a);
+    begin_vertex<N, false>(points, a);
     for (int i = first;; i += 2) {
-      s += step, m += step, n += step;
-      along(s, m, n, centre, unit, b, a);
-      s += step, m += step, n += step;
+      next();
+      begin_vertex<N, false>(points, b, a);
+      next();
       if (i + 2 == end) break;
-      Vertex<N> next;
-      along(s, m, n, centre, unit, next, b);
+      Vertex<N> after;
+      begin_vertex<N, false>(points, after, b);
       to.couple(0, a, b);
       to = to.from(2);
-      a = next;
+      a = after;
     }
-    b.root_1(), b.root_2(), b.root_3(), b.root_4(), b.scale();
+    b.end();
     to.couple(0, a, b);
-  }
-
-  HWY_ATTR static HWY_INLINE void begin(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,
-                                        V unit, Vertex<N>& v) {
-    Tangents<N, Axis::kRow> tangents;
-    for (int c = 0; c < 3; ++c) tangents.coordinate(s, m, n, c, centre, unit, v);
-    v.set_normal(tangents.slant, tangents.across);
-    v.set_square();
-  }
-
-  // `begin` of one vertex and the end of another.
-  HWY_ATTR static HWY_INLINE void along(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,
-                                        V unit, Vertex<N>& v, Vertex<N>& other) {
-    Tangents<N, Axis::kRow> tangents;
-    other.root_1();
-    tangents.coordinate(s, m, n, 0, centre, unit, v);
-    other.root_2();
-    tangents.coordinate(s, m, n, 1, centre, unit, v);
-    other.root_3();
-    tangents.coordinate(s, m, n, 2, centre, unit, v);
-    other.root_4();
-    v.set_normal(tangents.slant, tangents.across);
-    other.scale();
-    v.set_square();
   }
 
   const Scalar *s_, *m_, *n_;

@@ -74,6 +74,15 @@ HWY_ATTR HWY_INLINE Limit<V> limit_rule(V v, const Hexagon<V>& h) {
   return {N::fma(N::splat(6), v, (h.e + h.w) + (north + south)), (h.e - h.w) + (h.ne - h.sw), north - south};
 }
 
+/// Half the sum of p and q, with few enough digits that moving there and back costs hardly any. The same in
+/// either order. Numbers without rounding have no digits to save.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
+  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12, a double at 2^-41
+  for (int c = 0; c < 3; ++c)
+    origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
+}
+
 /// a x b to out[0..2]. The bias makes a zero product (0, 0, 1); elsewhere it is below the rounding of any
 /// product a mesh scaled to size 1 can have. It comes last: parallel tangents may have exact products, in
 /// which it would drown. [claim D12]
@@ -135,7 +144,8 @@ struct Vertex {
     for (int c = 0; c < 3; ++c) normal[c] = N::fma(normal[c], y, N::splat(0));
   }
 
-  HWY_ATTR HWY_INLINE void finish() { set_square(), root_1(), root_2(), root_3(), root_4(), scale(); }
+  HWY_ATTR HWY_INLINE void end() { root_1(), root_2(), root_3(), root_4(), scale(); }
+  HWY_ATTR HWY_INLINE void finish() { set_square(), end(); }
   HWY_ATTR HWY_INLINE void store(typename N::Scalar* to) const {
     for (int c = 0; c < 3; ++c) {
       N::store(position[c], to + c * N::lanes);
@@ -149,6 +159,33 @@ struct Vertex {
     }
   }
 };
+
+/// Position and direction of the normal of the next point of a row: points.coordinate<odd>(c, v, a, b) gives coordinate
+/// c of its position and of two tangents.
+template <class N, bool odd, class Points>
+HWY_ATTR HWY_INLINE void begin_vertex(Points&& points, Vertex<N>& v) {
+  typename N::V a[3], b[3];
+  points.template advance<odd>();
+  for (int c = 0; c < 3; ++c) points.template coordinate<odd>(c, v, a, b);
+  v.set_normal(a, b);
+  v.set_square();
+}
+/// The same, and the end of another vertex.
+template <class N, bool odd, class Points>
+HWY_ATTR HWY_INLINE void begin_vertex(Points&& points, Vertex<N>& v, Vertex<N>& other) {
+  typename N::V a[3], b[3];
+  points.template advance<odd>();
+  other.root_1();
+  points.template coordinate<odd>(0, v, a, b);
+  other.root_2();
+  points.template coordinate<odd>(1, v, a, b);
+  other.root_3();
+  points.template coordinate<odd>(2, v, a, b);
+  other.root_4();
+  v.set_normal(a, b);
+  other.scale();
+  v.set_square();
+}
 
 }  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -50,7 +50,8 @@ class EdgeStream {
   /// blocks are left alone.
   HWY_ATTR void refine(const Scalar* p, int p_first, const Scalar* q, int q_first) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
-    if (placement_.has_local_origin(depth_)) choose_origin<N>(p, q, origin);
+    if (placement_.has_local_origin(depth_))
+      choose_middle<N>(p + CornerBlock::kCentre * L, q + CornerBlock::kCentre * L, origin);
     for (int c = 0; c < 3; ++c)
       centre_[c] = N::fma(origin[c], N::splat(placement_.unit), N::splat(placement_.centre[c]));
     take_block<N>(p, p_first, edge_window_width(depth_), origin, placement_.has_local_origin(depth_),
@@ -213,7 +214,8 @@ class Stream {
       edge_.store(strips_ + edge * edge_output_size(depth_) * L);
     }
     V origin[3];
-    choose_origin<N>(corner_block(kA), corner_block(kC), origin);
+    choose_middle<N>(corner_block(kA) + CornerBlock::kCentre * L, corner_block(kC) + CornerBlock::kCentre * L,
+                     origin);
     for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
     for (int corner = 0; corner < 4; ++corner) {
       Scalar* block = corner_block(corner);

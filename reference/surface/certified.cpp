@@ -276,7 +276,7 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, const Parameter& l1, const
 }
 
 CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Parameter& l1, const Parameter& l2,
-                                            int digits) const {
+                                            int digits, Wanted wanted) const {
   if (face < 0 || static_cast<std::size_t>(face) >= data_->topology.faces().size())
     throw data::ArgumentError("no face " + std::to_string(face));
   std::optional<NearPart> part;
@@ -299,10 +299,11 @@ CertifiedPoint CertifiedEvaluator::evaluate(int face, int corner, const Paramete
     return result;
   };
   return certify({part->faces, tags, part->valences, part->corner, l1, l2, 1, positions}, data_->scheme,
-                 data_->weights, digits);
+                 data_->weights, digits, wanted);
 }
 
-CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights weights, int digits) {
+CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights weights, int digits,
+                       Wanted wanted) {
   if (digits < 1 || digits > 10000) throw data::ArgumentError("digits must be 1..10000");
   const long first = static_cast<long>(digits * 3.33) + 64;
   // Next to a corner quantities fall and rise with powers of the distance, which costs that many bits: the
@@ -323,14 +324,15 @@ CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights w
     }
     const bool has_normal =
         s.normal_kind == NormalKind::kRegular || s.normal_kind == NormalKind::kNoTangentPlane;
-    if (!has_normal && !last_chance) continue;  // perhaps only not yet told from zero
+    const bool all = wanted == Wanted::kAll;
+    if (all && !has_normal && !last_chance) continue;  // perhaps only not yet told from zero
 
     Printer print(digits, last_chance), print_curvature(digits, last_chance);
     CertifiedPoint result;
     result.position = print(s.position);
     result.d1 = print(s.d1);
     result.d2 = print(s.d2);
-    result.normal = print(s.normal);
+    if (all) result.normal = print(s.normal);
     result.normal_kind = s.normal_kind;
     result.first_exist = s.first_exist;
     result.limits = s.limits;
@@ -342,7 +344,7 @@ CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights w
       result.d11 = print(s.d11);
       result.d12 = print(s.d12);
       result.d22 = print(s.d22);
-      if (has_normal && !s.at_corner) {
+      if (all && has_normal && !s.at_corner) {
         const Ball e = dot(s.d1, s.d1), f = dot(s.d1, s.d2), g = dot(s.d2, s.d2);
         const Ball l = dot(s.d11, s.normal), m = dot(s.d12, s.normal), n = dot(s.d22, s.normal);
         const Ball area = Ball(1) / (e * g - f * f);

@@ -65,6 +65,9 @@ struct CertifiedPoint {
       faces;  ///< of the mesh that was made to evaluate it: those near, at vertices of many faces a few
 };
 
+/// What of a point is wanted. Normals and curvatures say nothing of values that are no positions, and cost digits.
+enum class Wanted { kAll, kDerivatives };
+
 /// Stam's evaluator in ball arithmetic (Arb): control points are taken as the exact binary numbers they are,
 /// parameters as exact rationals.
 class CertifiedEvaluator {
@@ -92,7 +95,8 @@ class CertifiedEvaluator {
   /// The same with Catmull-Clark's parameters: (u, v) of a quad (corner 0), or of the sub-quad at a corner of
   /// another face, see catmull_clark::SubdivisionEvaluator; d1 and d2 are by u and v. Loop's have the corner
   /// 0.
-  CertifiedPoint evaluate(int face, int corner, const Parameter& u, const Parameter& v, int digits) const;
+  CertifiedPoint evaluate(int face, int corner, const Parameter& u, const Parameter& v, int digits,
+                          Wanted wanted = Wanted::kAll) const;
 
   /// Of vertices of more faces, and faces of more corners, only those are built that are near the point, where that is
   /// exact (near_part.h): 1000. Not to be changed while another thread evaluates.

@@ -33,6 +33,7 @@ struct PartWithPoint {
 };
 
 /// To so many digits, as CertifiedEvaluator::evaluate says.
-CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights weights, int digits);
+CertifiedPoint certify(const PartWithPoint& part, data::Scheme scheme, Weights weights, int digits,
+                       Wanted wanted);
 
 }  // namespace limitcheck::reference

@@ -178,7 +178,8 @@ ChannelEvaluator::~ChannelEvaluator() = default;
 std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, const Parameter& u,
                                                        const Parameter& v, int digits) const {
   std::vector<CertifiedPoint> result;
-  for (const auto& whole : data_->whole) result.push_back(whole->evaluate(face, corner, u, v, digits));
+  for (const auto& whole : data_->whole)
+    result.push_back(whole->evaluate(face, corner, u, v, digits, Wanted::kDerivatives));
   if (!result.empty()) return result;
 
   const data::Faces& faces = data_->channel.topology.faces();
@@ -196,7 +197,7 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
     const auto values = [&] { return data_->settled<Ball>(block, f, corner, u, v).values; };
     result.push_back(certify(
         {on.cut.faces, on.cut.tags, {}, on.corner, parameter(on.u), parameter(on.v), on.factor, values},
-        data_->scheme, Weights::kLoop, digits));
+        data_->scheme, Weights::kLoop, digits, Wanted::kDerivatives));
   }
   return result;
 }

@@ -30,7 +30,7 @@ class ChannelEvaluator {
 
   /// At a point of a face, as CertifiedEvaluator::evaluate, whose `digits` and errors it has.
   ///   returns   for components 0 to 2, and if there are more, for the others: coordinates of positions and derivatives;
-  ///             those beyond the last component are 0. Normals and curvatures say nothing
+  ///             those beyond the last component are 0. There are no normals and curvatures
   std::vector<CertifiedPoint> evaluate(int face, int corner, const Parameter& u, const Parameter& v,
                                        int digits) const;
 

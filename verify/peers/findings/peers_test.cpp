@@ -18,6 +18,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
 #include "reference/surface/certified.h"
+#include "reference/surface/channel.h"
 #include "verify/audit/audit.h"
 #include "verify/relations/refusal.h"
 #include "verify/subject/registry.h"
@@ -139,19 +140,22 @@ std::string command(const Json& finding) {
 
 // Where a page has a table with its certified row, followed by the command that gives it.
 struct Expected {
-  std::array<std::string, 3> digits;
+  std::vector<std::string> digits;
   std::string mesh;
   int face;
-  std::string u, v;
+  std::string u, v, channel;  // no name: a position or a normal
 };
 
 std::vector<Expected> expected_in(const std::string& page) {
   static const std::regex form(
-      "\\| expected \\| (\\S+) \\| (\\S+) \\| (\\S+) \\|\n.*\n\n"
-      "Expected, certified: `limitcheck eval (\\S+) (\\d+) (\\S+) (\\S+)( --precision float)? --digits 20`");
+      "\\| expected \\| (\\S+) \\| (\\S+) \\|( (\\S+) \\|)?\n.*\n\n"
+      "Expected, certified: `limitcheck eval (\\S+) (\\d+) (\\S+) (\\S+)( --precision float)?( --channel "
+      "(\\w+))? --digits 20`");
   std::vector<Expected> all;
-  for (std::sregex_iterator m(page.begin(), page.end(), form), end; m != end; ++m)
-    all.push_back({{(*m)[1], (*m)[2], (*m)[3]}, (*m)[4], std::stoi((*m)[5]), (*m)[6], (*m)[7]});
+  for (std::sregex_iterator m(page.begin(), page.end(), form), end; m != end; ++m) {
+    all.push_back({{(*m)[1], (*m)[2]}, (*m)[5], std::stoi((*m)[6]), (*m)[7], (*m)[8], (*m)[11]});
+    if ((*m)[4].matched) all.back().digits.push_back((*m)[4]);
+  }
   return all;
 }
 
@@ -168,15 +172,22 @@ TEST(Pages, ExpectCertifiedValues) {
       const fs::path file = root() / e.mesh;
       // Its coordinates are exact in float, which is all the difference that --precision could make.
       const auto mesh = data::open_mesh(fs::exists(file) ? file.string() : e.mesh).mesh;
-      const reference::CertifiedEvaluator evaluator(mesh, data::natural_scheme(mesh));
-      const auto point = evaluator.evaluate(e.face, 0, reference::Parameter::parse(e.u),
-                                            reference::Parameter::parse(e.v), 20);
+      const auto u = reference::Parameter::parse(e.u), v = reference::Parameter::parse(e.v);
+      const data::Scheme scheme = data::natural_scheme(mesh);
+      reference::CertifiedPoint point;
+      if (e.channel.empty()) {
+        point = reference::CertifiedEvaluator(mesh, scheme).evaluate(e.face, 0, u, v, 20);
+      } else {
+        const data::Channel& channel = data::channel_of(mesh, e.channel);
+        point = reference::ChannelEvaluator(mesh, channel, channel.rule.value(), scheme)
+                    .evaluate(e.face, 0, u, v, 20)[0];
+      }
       const auto is = [&](const reference::Enclosure3& exact) {
-        return exact[0].value == e.digits[0] && exact[1].value == e.digits[1] &&
-               exact[2].value == e.digits[2];
+        return std::equal(e.digits.begin(), e.digits.end(), exact.begin(),
+                          [](const std::string& digits, const auto& x) { return digits == x.value; });
       };
       EXPECT_TRUE(is(point.position) || is(point.normal))
-          << entry.path().filename() << ", " << e.mesh << " face " << e.face << ": " << e.digits[2];
+          << entry.path().filename() << ", " << e.mesh << " face " << e.face << ": " << e.digits[0];
       ++values;
     }
   }

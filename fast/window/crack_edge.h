@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "data/error.h"
-#include "fast/window/sliding_window.h"
+#include "fast/rules/prepared_mesh.h"
 
 namespace limitcheck::fast {
 
@@ -58,8 +58,7 @@ class EdgeStrip {
     const Vec3<N>*line = from->line, *up = from->up;
     for (int i = 1; i < n; ++i) {
       if (has_down_)
-        out[i] =
-            regular_vertex_limit<N, Surface>(line[i], along_row(line, up - 1, from->down, i), zero_normals_);
+        out[i] = regular_vertex_limit<N, Surface>(line[i], axis(*from, i), zero_normals_);
       else
         out[i] = boundary_vertex_limit<N, Surface>(line[i], line[i + 1], up[i], up[i - 1], line[i - 1],
                                                    zero_normals_);
@@ -74,6 +73,10 @@ class EdgeStrip {
     Vec3<N>*line, *up, *down;
     Ring left, right;  // slot 0 along the line
   };
+
+  static AxisRing<N> axis(const Rows& r, int i) {
+    return {r.line[i + 1], r.up[i], r.up[i - 1], r.line[i - 1], r.down[i - 1], r.down[i]};
+  }
 
   void fill(const PreparedMesh<N, Surface>& mesh, std::int32_t h) {
     const Adjacency& adjacency = mesh.adjacency();
@@ -91,15 +94,33 @@ class EdgeStrip {
 
   void refine(int n, const Rows& old, Rows& out) {
     const Vec3<N>*line = old.line, *up = old.up, *down = old.down;
-    refine_row(n, 0, line, up - 1, has_down_ ? down : nullptr, old.left, old.right, out.line);
-    const Ring &left = old.left, &right = old.right;
-    refine_apexes(n, line, up, left.has_face_after(1), left.at(2), right.has_face_after(right.n - 2),
-                  right.ring[right.n - 2], out.up);
+    out.line[0] = subdivide_corner(line[0], old.left);
+    out.line[2 * n] = subdivide_corner(line[n], old.right);
+    for (int i = 1; i < n; ++i)
+      out.line[2 * i] =
+          has_down_ ? regular_vertex(line[i], axis(old, i)) : curve_vertex(line[i], line[i + 1], line[i - 1]);
+    for (int i = 0; i < n; ++i)
+      out.line[2 * i + 1] =
+          has_down_ ? edge_point(line[i], line[i + 1], up[i], down[i]) : midpoint(line[i], line[i + 1]);
+    refine_flap(n, line, up, old.left.has_face_after(1), old.left.at(2),
+                old.right.has_face_after(old.right.n - 2), old.right.ring[old.right.n - 2], out.up);
     if (has_down_)
-      refine_apexes(n, line, down, left.has_face_after(left.n - 2), left.ring[left.n - 2],
-                    right.has_face_after(1), right.at(2), out.down);
+      refine_flap(n, line, down, old.left.has_face_after(old.left.n - 2), old.left.ring[old.left.n - 2],
+                  old.right.has_face_after(1), old.right.at(2), out.down);
     subdivide_ring(line[0], old.left, out.left);
     subdivide_ring(line[n], old.right, out.right);
+  }
+
+  /// The apexes over the edges of the line: before the first and after the last there is a face, or none.
+  static void refine_flap(int n, const Vec3<N>* line, const Vec3<N>* apex, bool has_before,
+                          const Vec3<N>& before, bool has_after, const Vec3<N>& after, Vec3<N>* out) {
+    out[0] = has_before ? edge_point(line[0], apex[0], line[1], before) : midpoint(line[0], apex[0]);
+    for (int i = 1; i < n; ++i) {
+      out[2 * i - 1] = edge_point(apex[i - 1], line[i], line[i - 1], apex[i]);
+      out[2 * i] = edge_point(line[i], apex[i], line[i + 1], apex[i - 1]);
+    }
+    out[2 * n - 1] =
+        has_after ? edge_point(apex[n - 1], line[n], line[n - 1], after) : midpoint(apex[n - 1], line[n]);
   }
 
   int max_depth_, max_valence_;

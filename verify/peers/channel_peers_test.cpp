@@ -13,7 +13,7 @@
 #include "data/generators/sharp_meshes.h"
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
-#include "verify/peers/test_far_mesh.h"
+#include "verify/peers/test_opensubdiv.h"
 
 namespace limitcheck::verify {
 namespace {

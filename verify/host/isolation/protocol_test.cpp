@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The protocol as PROTOCOL.md states it, answers read from memory.
 #include "verify/host/isolation/protocol.h"
+#include "verify/host/isolation/header.h"
 
 #include <gtest/gtest.h>
 
@@ -125,10 +126,10 @@ struct Read {
 };
 
 void read(Read& r, const std::string& answer, Payload payload,
-          Capabilities c = capabilities_of("{" + kHello + "}\n")) {
+          Capabilities c = capabilities_of("{" + kHello + "}\n"), const lc_mesh& mesh = {}) {
   c.payload = payload;
   MemorySource source(answer);
-  read_tessellation(source, c, 1 << 20, r.request, r.out);
+  read_tessellation(source, c, 1 << 20, mesh, r.request, r.out);
 }
 
 const std::string kText = "{\"status\": \"ok\", \"vertices\": 1, \"triangles\": 1}\n";
@@ -195,6 +196,43 @@ TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
     ASSERT_NE(r.out.corner, nullptr);
     EXPECT_EQ(*r.out.corner, 5);
     EXPECT_EQ(*r.out.triangle_face, 7);
+  }
+}
+
+// A channel goes with the mesh, and comes with the tessellation: of each corner of each triangle its components.
+TEST(Protocol, HandsChannelsOverAndReadsTheirValues) {
+  const Capabilities c = capabilities_of(
+      R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
+      R"("weights": "loop", "boundary": "spline", "points": "limit", "max_depth": 5, "normals": false, )"
+      R"("per_face_depth": false, "exact_lattice": true, "provenance": false, "channels": ["none", "all", "unheard"]})"
+      "\n");
+  EXPECT_EQ(c.values.channel_rules, 1 << LC_CHANNEL_NONE | 1 << LC_CHANNEL_ALL);
+  const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, values[] = {0.5, 0.25, 1, 0};
+  const std::int32_t corners[] = {0, 1, 2}, sizes[] = {3}, indices[] = {0, 1, 1};
+  const lc_channel channel{2, LC_CHANNEL_ALL, values, 2, indices};
+  lc_mesh mesh{positions, 3, corners, 1, sizeof(lc_mesh), LC_SCHEME_CATMULL_CLARK, corners, 3, sizes, 1};
+  mesh.channels = &channel, mesh.channel_count = 1;
+  Capabilities text = c;
+  text.payload = Payload::kText;
+  const std::string asked = ask_create(mesh, "", c), in_words = ask_create(mesh, "", text);
+  const Header header(asked.substr(0, asked.find('\n')));
+  ASSERT_EQ(header.channels().size(), 1U);
+  EXPECT_EQ(header.channels()[0].components, 2);
+  EXPECT_EQ(header.channels()[0].rule, LC_CHANNEL_ALL);
+  EXPECT_EQ(header.channels()[0].values, 2);
+  EXPECT_TRUE(asked.ends_with(bytes_of(values, indices)));
+  EXPECT_TRUE(in_words.ends_with("0 1 2\n0.5 0.25\n1 0\n0\n1\n1\n")) << in_words;
+
+  const float numbers[] = {1, 2, 3}, uv[] = {0.5, 0.25, 1, 0, 1, 0};
+  const std::uint32_t triangle[] = {0, 0, 0};
+  for (const auto& [payload, answer] : {std::pair{Payload::kBinary, bytes_of(numbers, triangle, uv)},
+                                        {Payload::kText, "1 2 3\n0 0 0\n0.5 0.25\n1 0\n1 0\n"}}) {
+    Read r;
+    read(r, kText + answer, payload, c, mesh);
+    ASSERT_NE(r.out.channel_values, nullptr);
+    EXPECT_EQ(std::memcmp(r.out.channel_values, uv, sizeof uv), 0);
+    Read shorter;
+    EXPECT_THROW(read(shorter, kText + answer.substr(0, answer.size() - 3), payload, c, mesh), Error);
   }
 }
 

@@ -51,6 +51,8 @@ auto maker() {
 /// Ours: row streaming on every target of this machine and in every output form, the sliding window, the
 /// naive subdivider.
 std::vector<Route> our_routes();
+/// The last two of these alone.
+std::vector<Route> paper_routes();
 /// The same for meshes of quads: row streaming of Catmull-Clark's surfaces.
 std::vector<Route> our_quad_routes();
 

@@ -3,13 +3,14 @@
 // vertex with the faces around it, on which one step of these rules closes. [Catmull & Clark 1978; C21, D14]
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "fast/mesh/cut_mesh.h"
-#include "fast/rules/limit.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"
 
@@ -103,7 +104,6 @@ struct QuadStar {
 
   int size() const { return 2 * faces + (open ? 1 : 0); }
   int edges() const { return faces + (open ? 1 : 0); }
-  std::span<const Vec3<N>> points() const { return {ring, static_cast<std::size_t>(size())}; }
   int wrapped(int i) const { return open ? i : i < 0 ? i + faces : i >= faces ? i - faces : i; }
   /// Closed: -faces <= i < 2 faces.
   const Vec3<N>& edge(int i) const { return ring[2 * wrapped(i)]; }
@@ -212,10 +212,11 @@ class OwnQuadStar {
   std::vector<Vec3<W>> points_, other_;
 };
 
-/// The unit normal of the faces of a star, weighted by area; zero if it is lost in rounding. Rings of four are added in
-/// opposite pairs.
+/// The unit normal of the faces of a star, weighted by area; zero if it is lost in rounding, as in
+/// area_normal() of limit.h. Rings of four are added in opposite pairs.
 template <class W>
 Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
+  using std::sqrt;
   const Vec3<W>& v = star.centre;
   const auto face = [&](int i) { return cross(star.face(i) - v, star.edge(i + 1) - star.edge(i)); };
   Vec3<W> sum{};
@@ -224,13 +225,23 @@ Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
   } else {
     for (int i = 0; i < star.faces; ++i) sum = sum + face(i);
   }
-  return unit_or_none(sum, v, star.points(), tolerance);
+  W reach(0);
+  for (int i = 0; i < star.size(); ++i) reach = std::max(reach, dot(star.ring[i] - v, star.ring[i] - v));
+  const W size = sqrt(dot(sum, sum));
+  return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
 }
 
-/// See normal_of_faces(); the star is subdivided.
+/// The unit normal where the tangents vanish or are parallel, as substitute_normal() of limit.h:
+/// that of the faces after one to three steps, else before them, else (0, 0, 1). [D12]
 template <class W>
 Vec3<W> substitute_star_normal(OwnQuadStar<W>& own, double tolerance) {
-  return normal_of_faces<W>([&] { return star_area_normal(own.star, tolerance); }, [&] { own.subdivide(); });
+  const Vec3<W> control = star_area_normal(own.star, tolerance);
+  for (int step = 0; step < 3; ++step) {
+    own.subdivide();
+    const Vec3<W> normal = star_area_normal(own.star, tolerance);
+    if (normal != Vec3<W>{}) return normal;
+  }
+  return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
 }
 
 }  // namespace limitcheck::fast

@@ -215,7 +215,7 @@ TEST(Audit, ASubjectThatRefusesIsARowAndNothingElseIsConfirmed) {
   EXPECT_EQ(row(results, "tessellates").status, Status::kFinding);
   EXPECT_FALSE(row(results, "tessellates").message.empty());
   std::size_t rows = 1;
-  for (const Check& check : checks()) rows += check.rows.size();
+  for (const Check& check : checks()) rows += has_matter(check, data::tetrahedron()) ? check.rows.size() : 0;
   EXPECT_EQ(results.size(), rows);
   for (const Result& r : results)
     EXPECT_TRUE(r.check == "tessellates" || r.status == Status::kNotRun) << r.check;

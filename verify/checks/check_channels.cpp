@@ -94,7 +94,8 @@ std::optional<std::vector<double>> errors(const Evidence& e, const std::vector<C
   std::vector<double> error(corners.size());
   for (std::size_t n = 0; n < corners.size(); ++n) {
     const Values got = delivered(e, corners[n], part), is = exact(surface, corners[n].place);
-    const double off = std::hypot(got[0] - is[0], got[1] - is[1], got[2] - is[2]);
+    // (Of three numbers, libstdc++'s hypot may lose a NaN.)
+    const double off = std::hypot(std::hypot(got[0] - is[0], got[1] - is[1]), got[2] - is[2]);
     error[n] = std::isfinite(off) ? off / diagonal : std::numeric_limits<double>::infinity();
   }
   return error;
@@ -168,7 +169,7 @@ std::vector<Result> check_channels(const Evidence& e) {
     const auto within = [&](double x) { return x <= allowed; };
     const auto at = std::max_element(found->begin(), found->end());
     if (at != found->end() && !within(*at) && said.empty())
-      said = other_rule(rule, corners.size(), [&](data::ChannelRule other) -> std::optional<std::int64_t> {
+      said = other_rules(rule, corners.size(), [&](data::ChannelRule other) -> std::optional<std::int64_t> {
         const auto by_other = errors(e, corners, part, other, size.diagonal);
         if (!by_other) return std::nullopt;
         return std::count_if(by_other->begin(), by_other->end(), within);

@@ -35,7 +35,8 @@ std::vector<Result> look(const Script& s, int depth = 1) {
   const Scripted scripted(mesh(), std::vector<std::int32_t>(4, depth), s);
   std::vector<Result> results;
   for (const Check& check : checks())
-    for (Result& r : check.run(*scripted)) results.push_back(std::move(r));
+    if (has_matter(check, mesh()))
+      for (Result& r : check.run(*scripted)) results.push_back(std::move(r));
   return results;
 }
 

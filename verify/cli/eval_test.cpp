@@ -390,7 +390,8 @@ TEST_F(EvalCommand, AChannelHasAValueOnEachSideOfASeam) {
   EXPECT_NEAR(std::stod(none["position"][0].get<std::string>()), .5 * 2 / 3 + .5 / 6, 1e-15);
   EXPECT_NEAR(std::stod(none["position"][1].get<std::string>()), 1. / 6, 1e-15);
   const std::string text = run("eval two.obj 0 1/2 1/2 --channel uv --channel-rule all").out;
-  EXPECT_NE(text.find("channel uv by the rule all\nvalue       0.25  0.5  exact\n"), std::string::npos)
+  EXPECT_NE(text.find("channel uv by the rule all\nvalue       0.2500000000000000  0.5000000000000000  "),
+            std::string::npos)
       << text;
 }
 
@@ -398,8 +399,9 @@ TEST_F(EvalCommand, AChannelTakesManyPoints) {
   write("two.obj", kTwoCharts);
   write("points.csv", "0,1,0\n1,0,0\n");
   EXPECT_EQ(
-      run("eval two.obj --points points.csv --channel uv --derivatives 1 --channel-rule all").out,
-      "face,u,v,value_0,value_1,d1_0,d1_1,d2_0,d2_1\n0,1,0,0.5,0,0.5,0,0,1\n1,0,0,0.625,0,0.375,0,0,1\n");
+      run("eval two.obj --points points.csv --channel uv --derivatives 1 --channel-rule all --digits 4").out,
+      "face,u,v,value_0,value_1,d1_0,d1_1,d2_0,d2_1\n0,1,0,0.5000,0,0.5000,0,0,1.000\n"
+      "1,0,0,0.6250,0,0.3750,0,0,1.000\n");
 }
 
 TEST_F(EvalCommand, AChannelThatIsNoneOrCannotBeHasAClearError) {

@@ -12,18 +12,22 @@
 
 namespace limitcheck::verify {
 
-/// A sentence that names the rule by which all but a hundredth of the values are right; empty if there is none.
+/// A sentence that names the rules by each of which all but a hundredth of the values are right; empty if there is none.
 ///   good   how many of `count` values are right by a rule; nothing where it cannot be said
 template <class Good>
-std::string other_rule(data::ChannelRule asked, std::size_t count, Good&& good) {
+std::string other_rules(data::ChannelRule asked, std::size_t count, Good&& good) {
+  std::string fit;
+  bool several = false;
   for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k) {
     const auto rule = static_cast<data::ChannelRule>(k);
     const std::optional<std::int64_t> right = rule == asked ? std::nullopt : good(rule);
-    if (right && *right * 100 >= static_cast<std::int64_t>(count) * 99)
-      return "the values are those of the rule " + std::string(data::kChannelRules[k]) + ", where " +
-             std::string(data::kChannelRules[static_cast<std::size_t>(asked)]) + " was asked for";
+    if (!right || *right * 100 < static_cast<std::int64_t>(count) * 99) continue;
+    several = !fit.empty();
+    fit += (several ? ", " : "") + std::string(data::kChannelRules[k]);
   }
-  return "";
+  if (fit.empty()) return "";
+  return "the values are those of " + std::string(several ? "each of the rules " : "the rule ") + fit +
+         ", where " + std::string(data::kChannelRules[static_cast<std::size_t>(asked)]) + " was asked for";
 }
 
 }  // namespace limitcheck::verify

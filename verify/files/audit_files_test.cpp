@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "data/generators/channel_meshes.h"
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
 #include "reference/loop/refine.h"
@@ -210,6 +211,12 @@ TEST(AuditFiles, NoCheckIsWithoutAFileThatItRefusesAndAnExplanation) {
   refined.positions[7][0] += .01;
   if (row(audit(mesh, refined), "file-recognised").status == Status::kFinding)
     killers.insert("file-recognised");
+
+  FileTessellation flat = good;  // one pair of texture coordinates for all
+  flat.texture = {{0, 0}};
+  flat.corner_texture.assign(flat.triangles.size(), {0, 0, 0});
+  if (row(audit(data::with_random_channel(mesh, 1), flat), "file-channel").status == Status::kFinding)
+    killers.insert("file-channel");
 
   std::set<std::string> explained;
   for (const RowKind& e : row_kinds())

@@ -12,8 +12,8 @@
 #include "data/error.h"
 #include "data/io/gltf.h"
 #include "reference/surface/channel.h"
-#include "verify/files/checks/file_evidence.h"
 #include "verify/evidence/channel_rule.h"
+#include "verify/files/checks/file_evidence.h"
 #include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
@@ -132,7 +132,7 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
     r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
   }
   if (s.bad > 0)
-    say(r, other_rule(rule, corners.size(), [&](ChannelRule other) -> std::optional<std::int64_t> {
+    say(r, other_rules(rule, corners.size(), [&](ChannelRule other) -> std::optional<std::int64_t> {
           const auto by_other = judged(e, corners, *channel, other, diagonal);
           return by_other ? std::optional(by_other->good) : std::nullopt;
         }));

@@ -245,7 +245,8 @@ TEST(RandomChannels, HaveTheSameLimitsByBothMethods) {
     const ChannelEvaluator by_cut(mesh, mesh.channels[0], *mesh.channels[0].rule, scheme),
         by_steps(mesh, mesh.channels[0], *mesh.channels[0].rule, scheme, Method::kSteps);
     for (int f = 0; f < 8; ++f)
-      for (const auto& [u, v] : {std::array{"1/3", "1/4"}, {"3/5", "3/10"}, {"0", "0"}, {"1/7", "6/7"}}) {
+      for (const auto& at : {std::array{"1/3", "1/4"}, {"3/5", "3/10"}, {"0", "0"}, {"1/7", "6/7"}}) {
+        const char *const u = at[0], *const v = at[1];
         const auto a = by_cut.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v), 30)[0],
                    b = by_steps.evaluate(f, 0, Parameter::parse(u), Parameter::parse(v), 30)[0];
         const auto same = [&](const Enclosure3& x, const Enclosure3& y) {

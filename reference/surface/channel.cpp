@@ -202,10 +202,22 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
   return result;
 }
 
-data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel) {
+namespace {
+
+ChannelCut cut_of(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule) {
   const ChannelTopology topology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners,
-                                 data::ChannelRule::kNone);
-  return cut_and_hold(topology, mesh.sharpness.triangles).faces;
+                                 rule);
+  return cut_and_hold(topology, mesh.sharpness.triangles);
+}
+
+}  // namespace
+
+data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel) {
+  return cut_of(mesh, channel, data::ChannelRule::kNone).faces;
+}
+
+bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule) {
+  return mesh.sharpness.creasing == data::Creasing::kUniform || cut_of(mesh, channel, rule).is_exact;
 }
 
 struct ChannelSurface::Data {
@@ -218,9 +230,7 @@ ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channe
                                data::ChannelRule rule, data::Scheme scheme) {
   if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
     throw data::ArgumentError("channel '" + channel.name + "': " + fault);
-  const ChannelTopology topology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners,
-                                 rule);
-  const ChannelCut cut = cut_and_hold(topology, mesh.sharpness.triangles);
+  const ChannelCut cut = cut_of(mesh, channel, rule);
   if (!cut.is_exact) throw data::ArgumentError("by Chaikin's creasing a semi-sharp edge ends on a seam");
   auto data = std::make_unique<Data>();
   data->loop = scheme == data::Scheme::kLoop;

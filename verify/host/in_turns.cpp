@@ -87,7 +87,8 @@ class Instance {
 };
 
 // Each has as many vertices and faces, and differs in one thing that caches are known to leave out.
-std::vector<LentMesh> look_alikes(const LentMesh& mesh, std::int32_t sharp) {
+std::vector<LentMesh> look_alikes(LentMesh mesh, std::int32_t sharp) {
+  mesh.channels.clear();  // another mesh may have them and be none that channels go with
   const auto declared = [sharp](std::int32_t kinds) { return (sharp & kinds) == kinds; };
   std::vector<LentMesh> all;
   // Other vertices under each number, at other places.

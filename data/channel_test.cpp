@@ -90,7 +90,7 @@ TEST(Channels, ThatAreUnusableAreLeftOutWithANote) {
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/9 5/8\n"),
             "the channel uv is left out: face 2 names value 9, there are 8");
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/99999999999 3/6 6/7 5/8\n"),
-            "the channel uv is left out: face 2 names value 9, there are 8");
+            "the channel uv is left out: face 2 names value 2147483647, there are 8");
   EXPECT_EQ(note(kTexture + "vt x 1\n", kFaces), "the channel uv is left out: value 9 is not finite");
   EXPECT_EQ(note("", "f 1 2 5 4\nf 2 3 6 5\n"), "0 notes");
 }

@@ -106,12 +106,12 @@ void join_equal_values(Channel& channel, const Faces& faces) {
 void add_channels(const PolygonSoup& soup, const std::vector<std::int64_t>& polygon_of, Examination& result) {
   for (const PolygonSoup::SoupChannel& given : soup.channels) {
     Channel channel{given.name, given.components, given.values, {}, given.rule};
-    const auto values = static_cast<std::int64_t>(given.values.size()) / std::max(1, given.components);
+    constexpr std::int64_t kBeyond = std::numeric_limits<std::int32_t>::max() - 1;  // an index of no value
     for (const std::int64_t polygon : polygon_of)
       for (std::size_t c = polygon == 0 ? 0 : soup.polygon_end[polygon - 1]; c < soup.polygon_end[polygon];
            ++c) {
         const std::int64_t index = c < given.corners.size() ? given.corners[c] : -1;
-        channel.corners.push_back(static_cast<std::int32_t>(index < -1 ? values : std::min(index, values)));
+        channel.corners.push_back(static_cast<std::int32_t>(index < -1 ? kBeyond : std::min(index, kBeyond)));
       }
     if (const std::string fault = fault_of(channel, result.mesh, soup.first); !fault.empty()) {
       result.notes.push_back(fmt::format("the channel {} is left out: {}", given.name, fault));

@@ -130,8 +130,9 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   // could judge.
   std::erase_if(mesh_.channels, [&](const data::Channel& c) {
     const data::ChannelRule rule = c.rule.value_or(data::kUsualChannelRule);
-    return input != Input::kValid || (capabilities_.channel_rules >> static_cast<int>(rule) & 1) == 0 ||
-           !data::fault_of(c, mesh_).empty() || !reference::has_exact_cut(mesh_, c, rule);
+    return (capabilities_.channel_rules >> static_cast<int>(rule) & 1) == 0 ||
+           !data::fault_of(c, mesh_).empty() ||
+           (input == Input::kValid && !reference::has_exact_cut(mesh_, c, rule));
   });
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/channel/channel_mesh.h"
+#include "reference/surface/channel.h"
 #include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify {
@@ -26,12 +27,23 @@ const Channel& uv_of(A a) {
 ChannelRule rule_of(A a) {
   return uv_of(a).rule.value_or(data::kUsualChannelRule);
 }
+// Whether a subject is handed the channel: see Session.
 bool has_channel(A a) {
-  return !a.mesh.channels.empty();
+  return !a.mesh.channels.empty() && reference::has_exact_cut(a.mesh, uv_of(a), rule_of(a));
 }
 
 Change of_channels(Change c, std::function<bool(A)> shows = {}) {
   c.on = Change::On::kBoth;
+  if (c.deliver)
+    c.deliver = [what = std::move(c.deliver)](A a, D out) {
+      if (out.channel_values.empty()) nowhere("channel");
+      what(a, out);
+    };
+  if (c.remake)
+    c.remake = [what = std::move(c.remake)](A a, Mesh m) {
+      if (m.channels.empty()) nowhere("channel");
+      what(a, m);
+    };
   c.shows = [shows = std::move(shows)](A a) { return has_channel(a) && (!shows || shows(a)); };
   return c;
 }
@@ -86,10 +98,7 @@ Change on_faces(const char* name, const char* description, ChannelRule rule,
 // The values delivered: two numbers for each corner of each triangle.
 Change values_of_channel(const char* name, const char* description, const char* check,
                          std::function<void(A, std::vector<double>&)> what) {
-  return of_channels(deliver(name, description, check, [what](A a, D out) {
-    if (out.channel_values.empty()) nowhere("channel value");
-    what(a, out.channel_values);
-  }));
+  return of_channels(deliver(name, description, check, [what](A a, D out) { what(a, out.channel_values); }));
 }
 
 bool seam_at(A a, std::int32_t v) {

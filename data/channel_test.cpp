@@ -145,6 +145,75 @@ TEST(Channels, OfUsdaArePrimvars) {
   EXPECT_EQ(channel_of(left, "st").at(1, 1), 1);
 }
 
+// Two quads of USD with more lines, and what is said of them.
+io::Examination examined_usda(const std::string& more) {
+  return io::examine(
+      io::read_usda("#usda 1.0\ndef Mesh \"m\" {\n  point3f[] points = [(0,0,0), (1,0,0), (1,1,0), (0,1,0), "
+                    "(2,0,0), (2,1,0)]\n  int[] faceVertexCounts = [4, 4]\n  int[] faceVertexIndices = "
+                    "[0, 1, 2, 3, 1, 4, 5, 2]\n" +
+                        more + "}\n",
+                    "m.usda"),
+      {});
+}
+
+TEST(Channels, OfUsdaHaveTheRuleOfTheirInterpolation) {
+  const auto rule = [](const std::string& interpolation) {
+    const auto found = examined_usda(
+        "float[] primvars:wet = [1, 2, 3, 4, 5, 6] (\n  elementSize = 1\n  "
+        "interpolation = \"" +
+        interpolation + "\"\n)\n");
+    return found.mesh.channels.empty() ? std::nullopt : found.mesh.channels[0].rule;
+  };
+  EXPECT_EQ(rule("vertex"), ChannelRule::kNone);
+  EXPECT_EQ(rule("varying"), ChannelRule::kAll);
+  // Six values are not those of eight corners; nor, as it happens to be, of one or two.
+  for (const char* none : {"faceVarying", "uniform", "constant"}) EXPECT_EQ(rule(none), std::nullopt);
+}
+
+// What is no array of numbers at the corners or vertices of this mesh is no channel, and refuses no file.
+TEST(Channels, OfUsdaThatAreNoneAreReadOver) {
+  for (const char* more :
+       {"float2[] primvars:st = None\n", "asset[] primvars:pictures = [@a.png@, @b.png@]\n",
+        "float[] primvars:wet.timeSamples = { 0: [1, 2, 3, 4, 5, 6] }\n",
+        "quatf[] primvars:turn = [(1, 0, 0, 0)]\n", "string[] primvars:names = [\"a\"]\n"})
+    EXPECT_TRUE(examined_usda(more).mesh.channels.empty()) << more;
+  EXPECT_EQ(examined_usda("int64[] primvars:id = [1, 2, 3, 4, 5, 6]\n").mesh.channels.at(0).components, 1);
+  EXPECT_TRUE(says(refusal_of<InputError>([] {
+                     examined_usda(
+                         "int[] holeIndices = []\nfloat[] primvars:wet = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n"
+                         "def Mesh \"short\" {\n  point3f[] points = [(0,0,0), (1,0,0), (1,1,0)]\n"
+                         "  int[] faceVertexCounts = [3]\n  int[] faceVertexIndices = [0, 1, 2, 0]\n"
+                         "  float[] primvars:wet = [1, 2, 3, 4]\n}\n");
+                   }),
+                   "its faces have 3 corners, there are 4"));
+}
+
+TEST(Channels, OfUsdaHaveOneNumberOfComponents) {
+  const auto found = examined_usda(
+      "float2[] primvars:st = [(0,0), (.5,0), (.5,1), (0,1), (.5,0), (1,0)]\n"
+      "def Mesh \"other\" {\n  point3f[] points = [(0,0,1), (1,0,1), (1,1,1)]\n  int[] faceVertexCounts = "
+      "[3]\n"
+      "  int[] faceVertexIndices = [0, 1, 2]\n  float4[] primvars:st = [(1,2,3,4), (1,2,3,4), "
+      "(1,2,3,4)]\n}\n");
+  EXPECT_TRUE(found.mesh.channels.empty());
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_TRUE(says(found.notes[0], "another mesh of the file has it with "));
+}
+
+TEST(Channels, OfPlyAreTwoNumbersForEachCorner) {
+  const auto found = io::examine(
+      io::read_ply(
+          "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+          "element face 2\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+          "end_header\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n"
+          "4 0 1 4 3 6 0 0 .5 0 .5 1\n4 1 2 5 4 10 .5 0 1 0 1 1 .75 1 .75 1\n",
+          "two.ply"),
+      {});
+  EXPECT_TRUE(found.mesh.channels.empty());
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_TRUE(says(found.notes[0], "not two for each corner of face 0"));
+}
+
 TEST(Channels, FaultsAreNamed) {
   const ControlMesh mesh = read(kPositions + kTexture + kFaces).mesh;
   Channel channel = mesh.channels[0];

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "fast/frame/scheme_frames.h"
+#include "fast/plan/pairing.h"
 #include "fast/window/sliding_window.h"
 #include "reference/loop/naive.h"
 

@@ -16,7 +16,7 @@
 namespace limitcheck::data {
 namespace {
 
-/// Adds values to a channel as its corners come: equal values of one key are one.
+/// Adds values to a channel as its corners come: corners of one key have one value, that of the first.
 template <class Key>
 class ChannelBuilder {
  public:

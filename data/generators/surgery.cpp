@@ -33,6 +33,7 @@ std::vector<Face> faces_of(const ControlMesh& mesh) {
 
 ControlMesh with_faces(ControlMesh mesh, const std::vector<Face>& faces) {
   mesh.faces.clear();
+  mesh.channels.clear();  // their corners are those of other faces
   for (const Face& f : faces) mesh.faces.push_back(f);
   return mesh;
 }

@@ -323,10 +323,10 @@ class Reader {
   }
 
   // Values of vertices from `begin` on; those of vertices without any are no numbers.
-  void add_texture(std::size_t channel, int accessor, std::size_t begin, std::size_t count) {
+  void add_texture(std::size_t channel, int accessor, std::size_t begin, std::size_t count) try {
     const Bytes values = bytes(accessor, TINYGLTF_TYPE_VEC2);
     if (values.component != TINYGLTF_COMPONENT_TYPE_FLOAT || values.count != count)
-      return;  // bytes and shorts
+      refuse("FILE_UNSUPPORTED", "texture coordinates that are not floats, one pair for each vertex");
     while (soup_.channels.size() <= channel)
       soup_.channels.push_back({.name = fmt::format("TEXCOORD_{}", soup_.channels.size()), .by_value = true});
     std::vector<double>& all = soup_.channels[channel].values;
@@ -335,6 +335,8 @@ class Reader {
       const auto value = number<std::array<float, 2>>(values[k]);
       all.insert(all.end(), {value[0], value[1]});
     }
+  } catch (const InputError& refusal) {
+    soup_.notes.push_back(fmt::format("TEXCOORD_{} is left out: {}", channel, refusal.what()));
   }
 
   std::string name_;

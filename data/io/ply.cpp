@@ -189,9 +189,12 @@ class PlyReader {
     // Values of corners take the place of those of vertices.
     const std::vector<std::size_t> texture = places_of(element, {"texcoord"}, true);
     if (!texture.empty()) uv_ = {.name = "uv", .by_value = true};
+    std::int64_t numbers = 0,
+                 unlike = -1;  // of the texture coordinates of a face; the first without two a corner
     const auto take = [&](std::size_t k, const Property& property) {
       if (!texture.empty() && k == texture[0]) {
-        for (std::int64_t left = body.list_size(property); left > 0; --left)
+        numbers = body.list_size(property);
+        for (std::int64_t left = numbers; left > 0; --left)
           uv_.values.push_back(body.real(property, property.type));
         return true;
       }
@@ -200,7 +203,17 @@ class PlyReader {
         soup_.corners.push_back(body.integer(property, property.type));
       return true;
     };
-    read_all(element, body, take, [&] { soup_.close_polygon(body.line()); });
+    read_all(element, body, take, [&] {
+      const auto face = static_cast<std::int64_t>(soup_.polygon_end.size());
+      const std::size_t first = face == 0 ? 0 : soup_.polygon_end.back();
+      if (unlike < 0 && static_cast<std::size_t>(numbers) != 2 * (soup_.corners.size() - first))
+        unlike = face;
+      soup_.close_polygon(body.line());
+    });
+    if (texture.empty() || unlike < 0) return;
+    uv_ = {};
+    soup_.notes.push_back(
+        fmt::format("the channel uv is left out: not two for each corner of face {}", unlike));
   }
 
   void read_edges(const Element& element, Body& body) {

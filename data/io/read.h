@@ -9,8 +9,9 @@
 //   FILE_SYNTAX           not of the form the format prescribes
 //   FILE_TRUNCATED        ends before what it announced
 // A file is taken whole and as it is, or refused: there is no repair and no partial result. The readers skip
-// what the formats have beside positions and faces (normals, colours, groups; texture coordinates but those of OBJ,
-// which become the channel "uv"), and tags that move no point.
+// what the formats have beside positions and faces (normals, colours, groups), and tags that move no point. Texture
+// coordinates of OBJ and PLY become the channel "uv", primvars of USD channels of their own names; those that cannot
+// be used are left out with a note.
 #pragma once
 
 #include <filesystem>

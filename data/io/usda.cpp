@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // USD as text: the points, faces, creases, corners and holes of its Mesh prims, and what they say of scheme, boundary and
-// triangles; all meshes of a file are one. What USD means where a mesh says nothing is taken: Catmull-Clark's scheme, and
-// boundary vertices of one face held. A primvar of numbers by corner, or by vertex, is a channel. Transformations are not applied; what moves no point is read over; anything else is
-// named in a note. Binary USD, animated points and what other files hold are refused.
+// triangles; all meshes of a file are one. What USD means where a mesh says nothing is taken: Catmull-Clark's
+// scheme, and boundary vertices of one face held. A primvar of numbers by corner or by vertex is a channel; one that
+// says no interpolation is taken by the number of its values. Transformations are not applied; what moves no point is
+// read over; anything else is named in a note. Binary USD, animated points and what other files hold are refused.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -24,8 +25,28 @@ struct UsdValue {
   std::vector<double> numbers;
   std::string word;
   std::int64_t line = 0;
-  int components = 1;  // of an element, as the type says
+  int components = 1;         // of an element, as the type says
+  std::string interpolation;  // of a primvar, if it says one
 };
+
+// The components of an element of an array of numbers; 0 of any other type.
+int components_of(std::string_view type) {
+  if (!type.ends_with("[]")) return 0;
+  type.remove_suffix(2);
+  const auto components = [&](std::string_view name, std::size_t digit_and_more) {
+    if (!type.starts_with(name) || type.size() != name.size() + digit_and_more) return 0;
+    const char digit = type[name.size()];
+    return digit >= '2' && digit <= '4' ? digit - '0' : 0;
+  };
+  for (const std::string_view number :
+       {"half", "float", "double", "int", "uint", "int64", "uint64", "uchar"}) {
+    if (type == number) return 1;
+    if (const int count = components(number, 1)) return count;
+  }
+  for (const std::string_view role : {"texCoord", "color", "point", "normal", "vector"})
+    if (const int count = components(role, 2)) return count;  // texCoord2f
+  return 0;
+}
 
 constexpr std::string_view kRead[] = {"points",
                                       "faceVertexCounts",
@@ -118,28 +139,42 @@ class UsdReader {
     if (is_variant) note(line, fmt::format("the variants of {} are read over", io::quoted(name)));
     if (name.starts_with("xformOp:"))
       note(line, fmt::format("{} is not applied: points are as their mesh has them", io::quoted(name)));
-    const bool is_primvar = of_mesh && name.starts_with("primvars:") && type.ends_with("[]") &&
-                            !type.starts_with("string") && !type.starts_with("token") &&
-                            !type.starts_with("bool");
+    const bool is_primvar =
+        of_mesh && name.starts_with("primvars:") && components_of(type) > 0 && name.find('.') == name.npos;
     const bool is_read = of_mesh && (among(kRead, name) || is_primvar);
     if (of_mesh && name.starts_with("points."))
       words_.fail("FILE_UNSUPPORTED", "the points move with time", line);
     if (of_mesh && !is_read && !is_relation && !is_variant && !among(kMovesNoPoint, name) &&
         !name.starts_with("primvars:") && !name.starts_with("xformOp") && !name.starts_with("normals"))
       note(line, fmt::format("{} is read over", io::quoted(name)));
+    UsdValue* value = nullptr;
     if (words_.take_if("=")) {
-      if (is_read) {
-        UsdValue value{{}, "", line};
-        if (const auto digit = type.find_first_of("234"); digit != type.npos)
-          value.components = type[digit] - '0';
-        read_value(value, 0);
-        if (!values.emplace(name, std::move(value)).second)
-          words_.fail("FILE_SYNTAX", fmt::format("{} is there twice", name), line);
+      if (is_read && words_.next().text != "None") {
+        const auto [at, is_new] = values.emplace(name, UsdValue{{}, "", line});
+        if (!is_new) words_.fail("FILE_SYNTAX", fmt::format("{} is there twice", name), line);
+        value = &at->second;
+        if (is_primvar) value->components = components_of(type);
+        read_value(*value, 0);
       } else {
         pass_value(0);
       }
     }
-    if (words_.next().is("(")) pass_value(0);
+    if (!words_.next().is("(")) return;
+    if (value != nullptr)
+      read_metadata(*value);
+    else
+      pass_value(0);
+  }
+
+  // (interpolation = "faceVarying", and what is passed)
+  void read_metadata(UsdValue& value) {
+    words_.need("(");
+    while (!words_.take_if(")")) {
+      const bool is_interpolation = words_.next().text == "interpolation";
+      pass_value(0);
+      if (is_interpolation && words_.take_if("=") && words_.next().kind == UsdToken::Kind::kText)
+        value.interpolation = words_.take().text;
+    }
   }
 
   void pass_value(int depth) {
@@ -233,9 +268,9 @@ class UsdReader {
       at += size;
       soup_.close_polygon(value("faceVertexCounts").line);
     }
-    add_channels(values, whole, first_vertex, corners.size(), left);
     if (at != corners.size())
       refuse("faceVertexCounts", fmt::format("its faces have {} corners, there are {}", at, corners.size()));
+    add_channels(values, first_vertex, corners.size(), left);
     const auto vertices_of = [&](const char* name) {
       return moved(name, "MESH_SHARPNESS", first_vertex, vertices);
     };
@@ -276,54 +311,70 @@ class UsdReader {
   }
 
   // The primvars of a mesh that has so many corners, the last of the soup.
-  template <class Whole>
-  void add_channels(const std::map<std::string_view, UsdValue>& values, const Whole& whole,
-                    std::int64_t first_vertex, std::size_t corners, bool left_handed) {
+  void add_channels(const std::map<std::string_view, UsdValue>& values, std::int64_t first_vertex,
+                    std::size_t corners, bool left_handed) {
     constexpr std::string_view kRules[] = {"none",         "cornersOnly", "cornersPlus1",
                                            "cornersPlus2", "boundaries",  "all"};
     const auto said = values.find("faceVaryingLinearInterpolation");
     const auto rule = said == values.end()
                           ? std::end(kRules)
                           : std::find(std::begin(kRules), std::end(kRules), said->second.word);
-    const std::size_t begin = soup_.corners.size() - corners;
+    const std::size_t vertices = soup_.positions.size() - static_cast<std::size_t>(first_vertex);
     for (const auto& [name, value] : values) {
       if (!name.starts_with("primvars:") || name.ends_with(":indices")) continue;
       const std::string indices = std::string(name) + ":indices";
       const bool is_indexed = values.contains(indices);
-      std::vector<std::int64_t> list = is_indexed ? whole(indices) : std::vector<std::int64_t>();
-      const std::size_t count = value.numbers.size() / static_cast<std::size_t>(value.components);
-      if (!is_indexed) {
-        list.resize(count);
+      std::vector<std::int64_t> list(value.numbers.size() / static_cast<std::size_t>(value.components));
+      if (is_indexed)
+        list = integers(values.find(indices)->second, words_, indices);
+      else
         std::iota(list.begin(), list.end(), std::int64_t{0});
-      }
-      const bool by_vertex = list.size() == soup_.positions.size() - static_cast<std::size_t>(first_vertex);
-      if (list.size() != corners && !by_vertex) continue;  // constant, or one for each face
-      const std::string channel(name.substr(std::string_view("primvars:").size()));
-      auto to = std::find_if(soup_.channels.begin(), soup_.channels.end(),
-                             [&](const auto& c) { return c.name == channel; });
-      if (to == soup_.channels.end()) {
-        soup_.channels.push_back({.name = channel, .components = value.components, .by_value = !is_indexed});
-        to = soup_.channels.end() - 1;
-      }
-      if (by_vertex)
-        to->rule = ChannelRule::kNone;  // interpolated as positions are
+      const std::string& by = value.interpolation;
+      const bool by_vertex = (by.empty() || by == "vertex" || by == "varying") && list.size() == vertices;
+      if (!by_vertex && (!(by.empty() || by == "faceVarying") || list.size() != corners))
+        continue;  // constant, or one for each face
+      PolygonSoup::SoupChannel* const to =
+          channel_of(name.substr(std::string_view("primvars:").size()), value, !is_indexed);
+      if (to == nullptr) continue;
+      if (by_vertex)  // as positions are, or linear
+        to->rule = by == "varying" ? ChannelRule::kAll : ChannelRule::kNone;
       else if (rule != std::end(kRules))
         to->rule = static_cast<ChannelRule>(rule - std::begin(kRules));
-      const auto offset = static_cast<std::int64_t>(to->values.size()) / to->components;
-      to->values.insert(to->values.end(), value.numbers.begin(), value.numbers.end());
-      to->corners.resize(begin, -1);
-      std::size_t at = 0;
-      for (auto face = soup_.polygon_end.begin(); face != soup_.polygon_end.end(); ++face) {
-        if (*face <= begin) continue;
-        const std::size_t size = *face - begin - at;
-        for (std::size_t k = 0; k < size; ++k) {
-          const std::size_t from = at + (left_handed && k > 0 ? size - k : k);
-          const auto place =
-              by_vertex ? static_cast<std::size_t>(soup_.corners[begin + at + k] - first_vertex) : from;
-          to->corners.push_back(list[place] < 0 ? -2 : list[place] + offset);
-        }
-        at += size;
+      add_corners(*to, value, list, by_vertex ? first_vertex : -1, corners, left_handed);
+    }
+  }
+
+  // The channel of that name, a new one if no mesh before had it; none if it has other components.
+  PolygonSoup::SoupChannel* channel_of(std::string_view name, const UsdValue& value, bool by_value) {
+    auto to = std::find_if(soup_.channels.begin(), soup_.channels.end(),
+                           [&](const auto& channel) { return channel.name == name; });
+    if (to == soup_.channels.end())
+      to = soup_.channels.insert(
+          to, {.name = std::string(name), .components = value.components, .by_value = by_value});
+    if (to->components == value.components) return &*to;
+    note(value.line, fmt::format("{}: another mesh of the file has it with {} components, not {}",
+                                 io::quoted(name), to->components, value.components));
+    return nullptr;
+  }
+
+  // The values of the last corners of the soup, a list of indices by corner; by vertex if a first vertex is given.
+  void add_corners(PolygonSoup::SoupChannel& to, const UsdValue& value, const std::vector<std::int64_t>& list,
+                   std::int64_t first_vertex, std::size_t corners, bool left_handed) const {
+    const std::size_t begin = soup_.corners.size() - corners;
+    const auto offset = static_cast<std::int64_t>(to.values.size()) / to.components;
+    to.values.insert(to.values.end(), value.numbers.begin(), value.numbers.end());
+    to.corners.resize(begin, -1);
+    std::size_t at = 0;
+    for (const auto end : soup_.polygon_end) {
+      if (end <= begin) continue;
+      const std::size_t size = end - begin - at;
+      for (std::size_t k = 0; k < size; ++k) {
+        const std::size_t place =
+            first_vertex < 0 ? at + (left_handed && k > 0 ? size - k : k)
+                             : static_cast<std::size_t>(soup_.corners[begin + at + k] - first_vertex);
+        to.corners.push_back(list[place] < 0 ? -2 : list[place] + offset);
       }
+      at += size;
     }
   }
 

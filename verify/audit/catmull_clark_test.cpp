@@ -3,7 +3,6 @@
 // finding, on every kind of face and boundary; who is asked for which, and who is blamed.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,7 +17,7 @@
 namespace limitcheck::verify {
 namespace {
 
-// A corner of a triangle: where it lies on the face of the triangle, and what came there.
+// A corner of a triangle, and where it lies on the face of the triangle.
 struct Corner {
   std::int64_t triangle;
   int k;

@@ -90,9 +90,9 @@ std::vector<Result> check_continuity(const Evidence&);
 /// control mesh; `t-vertices`: no vertex lies inside an edge of another triangle.
 std::vector<Result> check_watertight(const Evidence&);
 
-/// `channel-positions`: at each corner of a triangle the values of the mesh's channels, on the side of the seam on which
-/// the triangle lies; `channel-shared`: a value that several triangles have has the same bits in each. Nothing where the
-/// subject was handed no channel.
+/// `channel-positions`: at each corner of a triangle the values of the mesh's channels, on the side of the seam
+/// on which the triangle lies; `channel-shared`: a value that several triangles have has the same bits in each. Not
+/// supported where the subject was handed no channel.
 std::vector<Result> check_channels(const Evidence&);
 
 struct Check {

@@ -114,6 +114,12 @@ std::string why_not(const nlohmann::json& report) try {
                      [&](const auto& row) { return row.at("subject") == subject; }))
       return fmt::format("it has no row of {}", subject.get<std::string>());
   for (const nlohmann::json& row : report.at("results")) {
+    if (!row.at("status").is_string() || !row.at("count").is_number_integer() ||
+        !row.at("of").is_number_integer())
+      return "it is no report: a row has no status, count or of";
+    for (const char* const number : {"worst", "bound"})
+      if (const nlohmann::json& x = row.at(number); !x.is_number() && !x.is_string() && !x.is_null())
+        return fmt::format("it is no report: {} is no number", number);
     const verify::Result r = verify::reported_row(row);
     if (verify::verdict_of(r) != r.status)
       return fmt::format("{} of {} on {} says {}, and its numbers say {}", r.check, r.subject, r.mesh,

@@ -319,6 +319,13 @@ TEST_F(Merge, VerifySaysWhetherAReportIsWholeAndUnaltered) {
     if (row["check"] == "positions") row["worst"] = .5;
   EXPECT_TRUE(
       says(sealed_again(edited), "positions of naive on octahedron says held, and its numbers say finding"));
+  for (const char* key : {"status", "count", "of", "worst", "bound"}) {
+    edited = report;
+    edited["results"][0].erase(key);
+    EXPECT_TRUE(says(sealed_again(edited), "it is no report")) << key;
+    edited["results"][0][key] = json::object();
+    EXPECT_TRUE(says(sealed_again(edited), "it is no report")) << key;
+  }
   report.erase("digest");
   write("edited.json", report.dump());
   const Outcome none = run("merge --verify edited.json", 2);

@@ -25,7 +25,7 @@ struct Command {
   std::map<std::string, Trial> trials;
   std::set<std::string> of_time_only = {};
   // What it takes more than 2000 rows to see (short_rows_test.cpp), and what depends on the machine
-  // (process_tree_test.cpp).
+  // (process_tree_test.cpp, misfortune_test.cpp).
   std::set<std::string> elsewhere = {};
 };
 

@@ -164,7 +164,7 @@ Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::
     out.stats = tessellator.frame(options, view, out.mesh);
     out.depth = tessellator.last_pairing().depth;
     lap();
-    return out;
+    return std::move(out);
   };
   if (a.sliding_window) return frame(fast::Tessellator<float>(mesh, engine));
   fast::row_stream::StreamTessellator stream(mesh, engine);

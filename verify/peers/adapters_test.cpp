@@ -196,6 +196,7 @@ void expect_reference(const Subject& subject, const Session& session, const Tess
   const int depth = expected.refined().depth();
   const double unit = data::box_diagonal(session.mesh());
   const double bound = position_bound(c.precision, depth, largest(session.mesh()), unit);
+  // Normals are differences of points 1/8 apart: they lose digits with each step.
   const double turn = c.precision == LC_FLOAT64 ? 1e-9 : normal_bound(c.precision, depth);
   for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
     EXPECT_FALSE(t.position_unwritten(v));

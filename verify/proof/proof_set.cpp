@@ -12,7 +12,6 @@
 #include <mutex>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "data/generators/bumpy_sphere.h"

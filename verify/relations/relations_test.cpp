@@ -258,7 +258,7 @@ class Forgetful {
 
  private:
   bool goes_wrong(std::int32_t depth, int threads) {
-    const std::int64_t faces = std::ssize(mesh_.faces.corners());
+    const auto faces = static_cast<std::int64_t>(mesh_.faces.size());
     const auto& first = cache.try_emplace({mesh_.positions.size(), mesh_.faces.size()}, mesh_).first->second;
     const bool wrong = (fault == "after_a_smaller_depth" && last_ >= 0 && last_ < depth) ||
                        (fault == "after_a_greater_depth" && deepest_ > depth) ||

@@ -107,9 +107,12 @@ constexpr std::tuple kLast{Status::kError,     Origin::kHost,
                            PlaceKind::kCorner, data::Scheme::kCatmullClark,
                            LC_FLOAT64,         reference::Weights::kWarren};
 
+// JSON has no number that is not finite: those are words.
 double number_of(const Json& json) {
-  return json.is_string() ? std::strtod(json.get_ref<const std::string&>().c_str(), nullptr)
-                          : json.get<double>();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (json == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (json == "inf" || json == "-inf") return json == "inf" ? kInfinity : -kInfinity;
+  return json.get<double>();
 }
 
 // The number of an enumerator, or its word.

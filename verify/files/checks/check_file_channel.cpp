@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
 #include <optional>
 
-#include "data/bounding_box.h"
 #include "data/error.h"
 #include "data/io/gltf.h"
 #include "reference/surface/channel.h"

@@ -104,11 +104,14 @@ class Behaviours : public testing::TestWithParam<bool> {
   void expect_all(RemoteSubject::Kind kind, const std::string& what,
                   const std::vector<BehaviourGroup>& table) {
     open_before_ = open_files();
+    int seen = 0;
     for (const BehaviourGroup& b : table)
       for (const std::string how : b.how) {
         SCOPED_TRACE(how);
         expect(kind, what, how, b.outcome, b.words);
+        ++seen;
       }
+    EXPECT_GE(seen, kind == RemoteSubject::Kind::kProgram ? 40 : 100);
   }
   void expect(RemoteSubject::Kind kind, const std::string& what, const std::string& how,
               const std::string& outcome, const char* words) {

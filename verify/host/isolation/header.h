@@ -40,8 +40,8 @@ inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kChann
      {"all", 1 << LC_CHANNEL_ALL}}};
 nlohmann::json names_of(std::int32_t bits, Names names);
 
-/// The arrays of a mesh as bytes, in the order in which they are sent. They may be written to where whoever lent the mesh
-/// has made a copy for that.
+/// The arrays of a mesh as bytes, in the order in which they are sent. Write to the bytes only if the arrays of the
+/// mesh are a copy that was made for that.
 std::vector<std::span<std::byte>> arrays_of(const lc_mesh& mesh);
 
 /// Dumped on one line. Text that is not UTF-8 is replaced; it never throws.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All of this runs between fork and exec of a program with threads: nothing but async-signal-safe calls, no
-// heap.
+// All of this runs between fork and exec of a program with threads: nothing but async-signal-safe calls, and fmt for
+// numbers into an array; no heap.
 #include "verify/host/isolation/keeper.h"
 
 #include <dirent.h>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A library that behaves as the C example does until it is told otherwise: behaviour=THING@PLACE, or that on=CASE alone.
-// Everything here is wrong on purpose. PLACE: capabilities, create, tessellate, release, destroy, unload; "answer" spoils
-// what was tessellated well. CASE: one of the meshes that an audit makes of the octahedron, or of the requests; validates=no:
-// it says that it does not.
+// A library that behaves as the C example does until it is told otherwise; everything here is wrong on purpose. The
+// option behaviour=THING@PLACE names what goes wrong and in which call: capabilities, create, tessellate, release,
+// destroy, unload; "answer" spoils what was tessellated well. With on=CASE it goes wrong in one case alone: on one of
+// the meshes that an audit makes of the octahedron, or for one of its requests. With validates=no the library says that
+// it validates no mesh.
 #include <limitcheck/subject.h>
 #include <sys/mman.h>
 

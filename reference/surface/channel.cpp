@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,6 +39,13 @@ struct Settled {
   Rational u, v, factor;  // the last of the derivatives by the parameters of the given face
 };
 
+/// Where a point is in face 0 of what is left, which begins at its corner `turn`.
+struct Descent {
+  int corner;
+  Rational u, v, factor;
+  std::size_t turn = 0;
+};
+
 template <class N>
 std::vector<Vec3<N>> values_of(const ChannelCut& cut, const std::vector<Vec3<N>>& at_corners) {
   std::vector<Vec3<N>> result;
@@ -44,53 +53,55 @@ std::vector<Vec3<N>> values_of(const ChannelCut& cut, const std::vector<Vec3<N>>
   return result;
 }
 template <class N>
-Settled<N> settled(const ChannelMesh<N>& near, data::TriangleRule triangles, int corner, const Rational& u,
-                   const Rational& v, const Rational& factor) {
-  Settled<N> result{cut_and_hold(near, triangles), {}, corner, u, v, factor};
+Settled<N> settled(const ChannelMesh<N>& near, data::TriangleRule triangles, const Descent& at) {
+  Settled<N> result{cut_and_hold(near, triangles), {}, at.corner, at.u, at.v, at.factor};
   result.values = values_of(result.cut, near.values);
+  const auto corners = result.cut.faces[0];
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(at.turn), corners.end());
   return result;
 }
 
-// Steps on the whole mesh, of what is near the point, until no semi-sharp tag is left.
+/// Steps on the whole mesh, of what is near a face.
 template <class N>
-Settled<N> settled_by_steps(const ChannelMesh<N>& mesh, data::TriangleRule triangles, std::size_t face,
-                            int corner, Rational u, Rational v) {
-  ChannelMesh<N> near = mesh.around(face);
+class Steps {
+ public:
+  Steps(const ChannelMesh<N>& mesh, std::size_t face, data::Scheme scheme, data::TriangleRule triangles)
+      : near_(mesh.around(face)), scheme_(scheme), triangles_(triangles) {}
+
+  const ChannelMesh<N>& near() const { return near_; }
+  void to(std::size_t child) { near_ = refine_once(near_, scheme_, triangles_).around(child); }
+
+ private:
+  ChannelMesh<N> near_;
+  data::Scheme scheme_;
+  data::TriangleRule triangles_;
+};
+
+// Until no semi-sharp tag is left.
+Descent descend(auto& steps, int corner, Rational u, Rational v) {
   Rational factor = 1;
-  const auto step_to = [&](std::size_t child) {
-    near = refine_once(near, data::Scheme::kCatmullClark, triangles).around(child);
-  };
-  if (near.is_semi_sharp(0) && near.topology.faces()[0].size() != 4) {
-    step_to(static_cast<std::size_t>(corner));
+  if (steps.near().is_semi_sharp(0) && steps.near().topology.faces()[0].size() != 4) {
+    steps.to(static_cast<std::size_t>(corner));
     corner = 0;
   }
-  for (; near.is_semi_sharp(0); factor *= 2) {
+  for (; steps.near().is_semi_sharp(0); factor *= 2) {
     const bool right = 2 * u > 1, up = 2 * v > 1;
     u = 2 * u - (right ? 1 : 0), v = 2 * v - (up ? 1 : 0);
-    step_to(up ? (right ? 2 : 3) : (right ? 1 : 0));
+    steps.to(up ? (right ? 2 : 3) : (right ? 1 : 0));
   }
-  return settled(near, triangles, corner, u, v, factor);
+  return {corner, u, v, factor};
 }
 
 // The same of triangles. The face is turned so that its parameters run along those of the given one, or against them.
-template <class N>
-Settled<N> settled_by_loop_steps(const ChannelMesh<N>& mesh, std::size_t face, const Parameter& first,
-                                 const Parameter& second) {
-  ChannelMesh<N> near = mesh.around(face);
+Descent descend_triangles(auto& steps, const Parameter& first, const Parameter& second) {
   const auto [l1, l2] = exact_parameters(first, second);
   SubFacePath<Rational> path(l1, l2);
   Rational factor = 1;
-  for (; near.is_semi_sharp(0); factor *= 2)
-    near = refine_once(near, data::Scheme::kLoop, data::TriangleRule::kCatmark)
-               .around(static_cast<std::size_t>(path.descend()));
+  for (; steps.near().is_semi_sharp(0); factor *= 2) steps.to(static_cast<std::size_t>(path.descend()));
   std::size_t turn = 0;  // to the corner whose weight falls, or rises, along both parameters
   while (path.gradient[turn][0] != path.gradient[turn][1]) ++turn;
   if (path.gradient[turn][0] == 1) factor = -factor;
-  Settled<N> result =
-      settled(near, data::TriangleRule::kCatmark, 0, path.w[(turn + 1) % 3], path.w[(turn + 2) % 3], factor);
-  const auto corners = result.cut.faces[0];
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(turn), corners.end());
-  return result;
+  return {0, path.w[(turn + 1) % 3], path.w[(turn + 2) % 3], factor, turn};
 }
 
 // The corners between which a channel of the rule `all` is linear or bilinear: those of a triangle of Loop's scheme, of a
@@ -139,9 +150,10 @@ struct ChannelEvaluator::Data {
                      const Parameter& v) const {
     const ChannelMesh<N> mesh(channel, numbers<N>(block));
     const Rational a = exact_value(u), b = exact_value(v);
-    return rule == data::ChannelRule::kAll ? linear(mesh, is_loop(), face, corner, a, b)
-           : is_loop()                     ? settled_by_loop_steps(mesh, face, u, v)
-                                           : settled_by_steps(mesh, triangles, face, corner, a, b);
+    if (rule == data::ChannelRule::kAll) return linear(mesh, is_loop(), face, corner, a, b);
+    Steps<N> steps(mesh, face, scheme, triangles);
+    const Descent at = is_loop() ? descend_triangles(steps, u, v) : descend(steps, corner, a, b);
+    return reference::settled(steps.near(), triangles, at);
   }
 };
 
@@ -204,64 +216,118 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
 
 namespace {
 
-ChannelCut cut_of(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule) {
-  const ChannelTopology topology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners,
-                                 rule);
-  return cut_and_hold(topology, mesh.sharpness.triangles);
+ChannelTopology topology_of(const data::ControlMesh& mesh, const data::Channel& channel,
+                            data::ChannelRule rule) {
+  return {Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule};
 }
+
+// A mesh whose positions are values.
+data::ControlMesh mesh_of(const ChannelCut& cut, const std::vector<Vec3<double>>& values) {
+  data::ControlMesh mesh;
+  mesh.faces = cut.faces;
+  for (const Vec3<double>& value : values) mesh.positions.push_back({value.x, value.y, value.z});
+  for (const auto& e : cut.tags.edges)
+    mesh.sharpness.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
+  for (const auto& v : cut.tags.vertices)
+    mesh.sharpness.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
+  mesh.sharpness.creasing = cut.tags.creasing, mesh.sharpness.triangles = cut.tags.triangles;
+  return mesh;
+}
+
+/// What is near a part of a face, and its cut if no semi-sharp tag is left.
+struct Near {
+  explicit Near(ChannelMesh<double> of) : mesh(std::move(of)) {}
+  ChannelMesh<double> mesh;
+  std::map<std::size_t, std::unique_ptr<Near>> finer{};
+  data::ControlMesh cut{};
+  std::optional<Surface> surface{};
+};
+
+/// As Steps, of which each is made once.
+struct KeptSteps {
+  Near* at;
+  data::Scheme scheme;
+  data::TriangleRule triangles;
+
+  const ChannelMesh<double>& near() const { return at->mesh; }
+  void to(std::size_t child) {
+    std::unique_ptr<Near>& next = at->finer[child];
+    if (next == nullptr)
+      next = std::make_unique<Near>(refine_once(at->mesh, scheme, triangles).around(child));
+    at = next.get();
+  }
+};
 
 }  // namespace
 
 data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel) {
-  return cut_of(mesh, channel, data::ChannelRule::kNone).faces;
-}
-
-bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule) {
-  return mesh.sharpness.creasing == data::Creasing::kUniform || cut_of(mesh, channel, rule).is_exact;
+  return cut_and_hold(topology_of(mesh, channel, data::ChannelRule::kNone), {}).faces;
 }
 
 struct ChannelSurface::Data {
-  data::ControlMesh cut;           // its positions are the values
-  std::optional<Surface> surface;  // of the cut; none by the rule `all`
-  bool loop;
+  data::Scheme scheme;
+  data::ChannelRule rule;
+  data::TriangleRule triangles;
+  ChannelMesh<double> mesh;
+  data::ControlMesh cut{};           // its positions are the values
+  std::optional<Surface> surface{};  // of the cut; none by the rule `all`, and where no cut is exact
+  // Where none is: what is near each face that was asked for.
+  std::mutex mutex{};
+  std::map<std::size_t, Near> near{};
+
+  bool is_loop() const { return scheme == data::Scheme::kLoop; }
+
+  SurfacePoint<double> by_steps(std::size_t face, int corner, double u, double v) {
+    std::unique_lock lock(mutex);
+    auto found = near.find(face);
+    if (found == near.end()) found = near.emplace(face, mesh.around(face)).first;
+    KeptSteps steps{&found->second, scheme, triangles};
+    const Descent at =
+        is_loop() ? descend_triangles(steps, u, v) : descend(steps, corner, Rational(u), Rational(v));
+    if (!steps.at->surface) {
+      const Settled<double> part = settled(steps.near(), triangles, at);
+      steps.at->cut = mesh_of(part.cut, part.values);
+      steps.at->surface.emplace(steps.at->cut, scheme);
+    }
+    lock.unlock();
+    SurfacePoint<double> point = steps.at->surface->evaluate(
+        0, at.corner, number_from<double>(at.u), number_from<double>(at.v), Derivatives::kFirst);
+    scale_derivatives(point, number_from<double>(at.factor));
+    return point;
+  }
 };
 
 ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channel& channel,
                                data::ChannelRule rule, data::Scheme scheme) {
   if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
     throw data::ArgumentError("channel '" + channel.name + "': " + fault);
-  const ChannelCut cut = cut_of(mesh, channel, rule);
-  if (!cut.is_exact) throw data::ArgumentError("by Chaikin's creasing a semi-sharp edge ends on a seam");
-  auto data = std::make_unique<Data>();
-  data->loop = scheme == data::Scheme::kLoop;
-  data->cut.faces = cut.faces;
-  for (const std::size_t c : cut.corner_of) {
-    std::array<double, 3>& value = data->cut.positions.emplace_back();
+  std::vector<Vec3<double>> values(channel.corners.size());
+  for (std::size_t c = 0; c < values.size(); ++c)
     for (int k = 0; k < std::min(channel.components, 3); ++k)
-      value[static_cast<std::size_t>(k)] = channel.at(c, k);
-  }
-  data::Sharpness& tags = data->cut.sharpness;
-  for (const auto& e : cut.tags.edges)
-    tags.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
-  for (const auto& v : cut.tags.vertices)
-    tags.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
-  tags.creasing = cut.tags.creasing, tags.triangles = cut.tags.triangles;
-  if (rule != data::ChannelRule::kAll) data->surface.emplace(data->cut, scheme);
-  data_ = std::move(data);
+      (k == 0 ? values[c].x : k == 1 ? values[c].y : values[c].z) = channel.at(c, k);
+  data_ = std::make_unique<Data>(
+      scheme, rule, mesh.sharpness.triangles,
+      ChannelMesh<double>(topology_of(mesh, channel, rule), std::move(values)));
+  if (rule == data::ChannelRule::kAll) return;
+  const ChannelCut cut = cut_and_hold(data_->mesh, mesh.sharpness.triangles);
+  if (!cut.is_exact) return;
+  data_->cut = mesh_of(cut, values_of(cut, data_->mesh.values));
+  data_->surface.emplace(data_->cut, scheme);
 }
 
 ChannelSurface::~ChannelSurface() = default;
 
 SurfacePoint<double> ChannelSurface::evaluate(int face, int corner, double u, double v) const {
   if (data_->surface) return data_->surface->evaluate(face, corner, u, v, Derivatives::kFirst);
-  std::vector<Vec3<double>> values;
-  for (const std::int32_t vertex : data_->cut.faces[static_cast<std::size_t>(face)]) {
-    const auto& p = data_->cut.positions[static_cast<std::size_t>(vertex)];
-    values.push_back({p[0], p[1], p[2]});
-  }
-  const std::vector<Vec3<double>> c = linear_corners(values, data_->loop, corner);
+  const auto f = static_cast<std::size_t>(face);
+  if (data_->rule != data::ChannelRule::kAll) return data_->by_steps(f, corner, u, v);
+  const data::Faces& faces = data_->mesh.topology.faces();
+  const auto first =
+      data_->mesh.values.begin() + static_cast<std::ptrdiff_t>(faces.first_corner(f));
+  const std::vector<Vec3<double>> values(first, first + static_cast<std::ptrdiff_t>(faces[f].size()));
+  const std::vector<Vec3<double>> c = linear_corners(values, data_->is_loop(), corner);
   const Vec3<double> along = c[1] - c[0], across = c.back() - c[0];
-  const Vec3<double> twist = data_->loop ? Vec3<double>{} : c[2] - c[1] - across;
+  const Vec3<double> twist = data_->is_loop() ? Vec3<double>{} : c[2] - c[1] - across;
   SurfacePoint<double> point{};
   point.position = c[0] + along * u + across * v + twist * (u * v);
   point.d1 = along + twist * v, point.d2 = across + twist * u;

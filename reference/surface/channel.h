@@ -43,25 +43,21 @@ class ChannelEvaluator {
 /// Throws data::ArgumentError as ChannelEvaluator.
 data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel);
 
-/// Whether a channel is the surface of a cut mesh: not by Chaikin's creasing where a semi-sharp edge ends on a seam. Throws
-/// data::ArgumentError as ChannelEvaluator.
-bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule);
-
-/// The same in double: of the cut, whose errors are those of Surface; by the rule `all` a few roundings.
+/// The same in double: of the cut, whose errors are those of Surface; where no cut is exact, of the cut after steps on
+/// the whole mesh, which are kept; by the rule `all` a few roundings.
 class ChannelSurface {
  public:
-  /// Throws data::ArgumentError as ChannelEvaluator, and where no cut is exact (ChannelCut): by Chaikin's creasing where a
-  /// semi-sharp edge ends on a seam.
+  /// Throws data::ArgumentError as ChannelEvaluator.
   ChannelSurface(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule,
                  data::Scheme scheme);
   ~ChannelSurface();
 
-  /// The first three components and their derivatives by the parameters.
+  /// The first three components and their derivatives by the parameters. Any number of threads may ask.
   SurfacePoint<double> evaluate(int face, int corner, double u, double v) const;
 
  private:
   struct Data;
-  std::unique_ptr<const Data> data_;
+  std::unique_ptr<Data> data_;
 };
 
 }  // namespace limitcheck::reference

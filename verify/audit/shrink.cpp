@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "data/cut_out.h"
@@ -23,6 +24,7 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   data::CutOut cut = data::cut_out(whole.mesh.faces, faces);
   AuditMesh out{whole.name, {cut.of(whole.mesh.positions), {}, cut.of(whole.mesh.sharpness)}};
   out.mesh.faces = std::move(cut.faces);
+  out.mesh.channels = data::channels_of(whole.mesh.channels, whole.mesh.faces, faces);
   out.asked_scheme = whole.asked_scheme;
   out.depths = whole.depths;
   for (std::size_t f = 0; f < faces.size(); ++f)
@@ -33,16 +35,37 @@ AuditMesh part(const AuditMesh& whole, const Faces& faces) {
   return out;
 }
 
-// Vertex b is merged into a, and faces with both vanish. The result may be invalid; the caller checks.
+// Vertex b is merged into a, and faces with both vanish. The result may be invalid; the caller checks. What had at b the
+// value of a face beside the edge has the value that this face has at a.
 AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
   AuditMesh out = whole;
   data::Faces faces;
   Faces left;
+  std::vector<std::map<std::int32_t, std::int32_t>> value_at_a(whole.mesh.channels.size());
+  for (data::Channel& channel : out.mesh.channels) channel.corners.clear();
+  const auto index = [&](std::size_t channel, std::size_t f, std::size_t k) {
+    return whole.mesh.channels[channel].corners[whole.mesh.faces.first_corner(f) + k];
+  };
   for (std::size_t f = 0; f < whole.mesh.faces.size(); ++f) {
-    std::vector<std::int32_t> corners(whole.mesh.faces[f].begin(), whole.mesh.faces[f].end());
-    std::replace(corners.begin(), corners.end(), b, a);
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    const auto its = whole.mesh.faces[f];
+    const auto at_a = std::find(its.begin(), its.end(), a), at_b = std::find(its.begin(), its.end(), b);
+    for (std::size_t c = 0; at_a != its.end() && at_b != its.end() && c < value_at_a.size(); ++c)
+      value_at_a[c].emplace(index(c, f, static_cast<std::size_t>(at_b - its.begin())),
+                            index(c, f, static_cast<std::size_t>(at_a - its.begin())));
+  }
+  for (std::size_t f = 0; f < whole.mesh.faces.size(); ++f) {
+    const auto its = whole.mesh.faces[f];
+    const bool has_a = std::find(its.begin(), its.end(), a) != its.end();
+    std::vector<std::int32_t> corners;
+    for (std::size_t k = 0; k < its.size(); ++k) {
+      if (its[k] == b && has_a) continue;
+      corners.push_back(its[k] == b ? a : its[k]);
+      for (std::size_t c = 0; c < value_at_a.size(); ++c) {
+        const std::int32_t own = index(c, f, k);
+        const auto known = value_at_a[c].find(own);
+        out.mesh.channels[c].corners.push_back(its[k] == b && known != value_at_a[c].end() ? known->second : own);
+      }
+    }
     faces.push_back(corners);
     if (corners.size() > 2) left.push_back(static_cast<std::int32_t>(f));
   }
@@ -76,7 +99,7 @@ class Shrinker {
       }
     }
     ball(face);
-    while (!late() && (remove_chunks() || collapse_edges() || remove_tags())) {
+    while (!late() && (remove_chunks() || remove_channels() || collapse_edges() || remove_tags())) {
     }
     lower_depths();
     round_coordinates();
@@ -145,6 +168,30 @@ class Shrinker {
       any = any || smaller;
       if (!smaller) chunk /= 2;
     }
+    return any;
+  }
+
+  // Channels one by one, then seams: at each vertex all values become the first.
+  bool remove_channels() {
+    bool any = false;
+    for (std::size_t c = 0; c < best_.mesh.mesh.channels.size() && !late();) {
+      AuditMesh candidate = best_.mesh;
+      candidate.mesh.channels.erase(candidate.mesh.channels.begin() + static_cast<std::ptrdiff_t>(c));
+      if (take(std::move(candidate)))
+        any = true;
+      else
+        ++c;
+    }
+    for (std::size_t c = 0; c < best_.mesh.mesh.channels.size(); ++c)
+      for (std::size_t v = 0; v < best_.mesh.mesh.positions.size() && !late(); ++v) {
+        AuditMesh candidate = best_.mesh;
+        std::vector<std::int32_t>& values = candidate.mesh.channels[c].corners;
+        const auto vertices = std::as_const(candidate.mesh.faces).corners();
+        std::int32_t first = -1;
+        for (std::size_t at = 0; at < values.size(); ++at)
+          if (vertices[at] == static_cast<std::int32_t>(v)) values[at] = first = first < 0 ? values[at] : first;
+        if (values != best_.mesh.mesh.channels[c].corners && take(std::move(candidate))) any = true;
+      }
     return any;
   }
 

@@ -1,109 +1,252 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <optional>
+#include <map>
+#include <memory>
+#include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
-#include "data/error.h"
 #include "reference/surface/channel.h"
 #include "verify/checks/checks.h"
-#include "verify/evidence/channel_rule.h"
+#include "verify/evidence/other_channel.h"
+#include "verify/evidence/vector.h"
 #include "verify/row/bounds.h"
 #include "verify/row/statistics.h"
 
 namespace limitcheck::verify {
 namespace {
 
-// A corner of a triangle, and where it lies on the face of the triangle.
+// A corner of a triangle, and which of the places where corners lie it lies at.
 struct Corner {
   std::int64_t triangle;
   int k;
-  Place place;
+  std::size_t at;
 };
 
-std::vector<Corner> corners_of(const Evidence& e) {
-  std::vector<Corner> corners;
-  for (std::int64_t t = 0; t < e.tessellation.triangle_count(); ++t) {
-    std::array<Lattice::Coordinates, 3> at;
-    if (!e.place(t, at)) continue;  // `coverage` says so
-    for (int k = 0; k < 3; ++k)
-      corners.push_back(
-          {t, k, e.lattice.place(e.tessellation.triangle_face()[t], at[static_cast<std::size_t>(k)])});
+// All corners, and each place on a face once.
+struct Corners {
+  explicit Corners(const Evidence& e) {
+    std::map<std::array<std::int64_t, 4>, std::size_t> known;
+    for (std::int64_t t = 0; t < e.tessellation.triangle_count(); ++t) {
+      std::array<Lattice::Coordinates, 3> at;
+      if (!e.place(t, at)) continue;  // `coverage` says so
+      const std::int32_t face = e.tessellation.triangle_face()[t];
+      for (int k = 0; k < 3; ++k) {
+        const auto& [i, j, part] = at[static_cast<std::size_t>(k)];
+        const auto [found, is_new] = known.try_emplace({face, part, i, j}, places.size());
+        if (is_new) {
+          places.push_back(e.lattice.place(face, at[static_cast<std::size_t>(k)]));
+          ids.push_back(e.lattice.id(places.back()));
+          terms.push_back(e.reference.terms_at(ids.back()));
+        }
+        all.push_back({t, k, found->second});
+      }
+    }
   }
-  return corners;
+
+  std::vector<Corner> all{};
+  std::vector<Place> places{};
+  std::vector<Lattice::Id> ids{};      // of each place
+  std::vector<std::int64_t> terms{};  // of the longest sum there
+};
+
+// Three components, and their derivatives.
+using Values = Vector;
+struct Point {
+  Values value{};
+  std::array<Values, 2> derivative{};
+  bool has_derivatives = true;
+};
+Values values_of(const reference::Vec3<double>& v) {
+  return vector_of(v);
+}
+Values values_of(const reference::Enclosure3& v) {
+  return {std::strtod(v[0].value.c_str(), nullptr), std::strtod(v[1].value.c_str(), nullptr),
+          std::strtod(v[2].value.c_str(), nullptr)};
+}
+Point point_of(const auto& p) {
+  return {values_of(p.position), {values_of(p.d1), values_of(p.d2)}, p.first_exist};
+}
+double distance(const Values& a, const Values& b) {
+  const Vector off = a - b;
+  return std::hypot(off[0], off[1], off[2]);
 }
 
 // At most three components of a channel of the mesh.
-struct Part {
-  std::size_t channel;
-  int first, count;
-  data::Channel values;  // of these components alone
-};
-std::vector<Part> parts_of(const data::ControlMesh& mesh) {
-  std::vector<Part> parts;
-  for (std::size_t c = 0; c < mesh.channels.size(); ++c)
-    for (int first = 0; first < mesh.channels[c].components; first += 3) {
-      const int count = std::min(3, mesh.channels[c].components - first);
-      parts.push_back({c, first, count, mesh.channels[c].some(first, count)});
+class Part {
+ public:
+  Part(const Evidence& e, std::size_t channel, int first)
+      : e_(e),
+        channel_(channel),
+        first_(first),
+        count_(std::min(3, e.mesh.channels[channel].components - first)),
+        values_(e.mesh.channels[channel].some(first, count_)) {
+    for (int k = 0; k < count_; ++k) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (auto i = static_cast<std::size_t>(k); i < values_.values.size(); i += static_cast<std::size_t>(count_)) {
+        low = std::min(low, values_.values[i]);
+        high = std::max(high, values_.values[i]);
+      }
+      magnitude_ = std::max({magnitude_, std::abs(low), std::abs(high)});
+      diagonal_ = std::hypot(diagonal_, high - low);
     }
-  return parts;
-}
+    diagonal_ = unit_of_length(diagonal_, magnitude_);
+  }
 
-struct Size {
-  double magnitude = 0, diagonal = 0;
-};
-Size size_of(const data::Channel& channel) {
-  Size size;
-  for (int k = 0; k < channel.components; ++k) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = static_cast<std::size_t>(k); i < channel.values.size();
-         i += static_cast<std::size_t>(channel.components)) {
-      low = std::min(low, channel.values[i]);
-      high = std::max(high, channel.values[i]);
+  const std::string& name() const { return values_.name; }
+  const data::Channel& channel() const { return values_; }
+  data::ChannelRule rule() const { return values_.rule.value_or(data::kUsualChannelRule); }
+
+  double bound(std::int64_t terms = kOrdinaryTerms) const {
+    return position_bound(e_.capabilities.precision, e_.reference.steps(), magnitude_, diagonal_, terms);
+  }
+  double derivative_bound(std::int64_t terms = kOrdinaryTerms) const {
+    return channel_derivative_bound(bound(terms), e_.reference.steps());
+  }
+
+  // What came.
+  Point got(const Corner& c) const {
+    Point p;
+    const Tessellation& t = e_.tessellation;
+    p.has_derivatives = t.has_channel_derivatives();
+    for (int k = 0; k < count_; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      p.value[at] = t.channel_value(channel_, c.triangle, c.k, first_ + k);
+      for (int by = 0; by < 2 && p.has_derivatives; ++by)
+        p.derivative[static_cast<std::size_t>(by)][at] =
+            t.channel_derivative(channel_, c.triangle, c.k, first_ + k, by);
     }
-    size.magnitude = std::max({size.magnitude, std::abs(low), std::abs(high)});
-    size.diagonal = std::hypot(size.diagonal, high - low);
+    return p;
   }
-  size.diagonal = unit_of_length(size.diagonal, size.magnitude);
-  return size;
-}
-
-using Values = std::array<double, 3>;
-Values delivered(const Evidence& e, const Corner& c, const Part& part) {
-  Values values{};
-  for (int k = 0; k < part.count; ++k)
-    values[static_cast<std::size_t>(k)] =
-        e.tessellation.channel_value(part.channel, c.triangle, c.k, part.first + k);
-  return values;
-}
-Values exact(const reference::ChannelSurface& surface, const Place& p) {
-  const auto at =
-      surface.evaluate(p.face, p.corner, double(p.i) / p.denominator, double(p.j) / p.denominator).position;
-  return {at.x, at.y, at.z};
-}
-
-// Errors of all corners, in diagonals of the channel; nothing where no cut is exact.
-std::optional<std::vector<double>> errors(const Evidence& e, const std::vector<Corner>& corners,
-                                          const Part& part, data::ChannelRule rule, double diagonal) try {
-  const reference::ChannelSurface surface(e.mesh, part.values, rule, e.lattice.scheme());
-  std::vector<double> error(corners.size());
-  for (std::size_t n = 0; n < corners.size(); ++n) {
-    const Values got = delivered(e, corners[n], part), is = exact(surface, corners[n].place);
-    // (Of three numbers, libstdc++'s hypot may lose a NaN.)
-    const double off = std::hypot(std::hypot(got[0] - is[0], got[1] - is[1]), got[2] - is[2]);
-    error[n] = std::isfinite(off) ? off / diagonal : std::numeric_limits<double>::infinity();
+  // What should come, by this channel or another in its place.
+  std::vector<Point> expected(const std::vector<Place>& places, const data::Channel& channel,
+                              data::ChannelRule by_rule) const {
+    const reference::ChannelSurface surface(e_.mesh, channel, by_rule, e_.lattice.scheme());
+    std::vector<Point> all;
+    all.reserve(places.size());
+    for (const Place& p : places)
+      all.push_back(point_of(surface.evaluate(p.face, p.corner, double(p.i) / p.denominator,
+                                              double(p.j) / p.denominator)));
+    return all;
   }
-  return error;
-} catch (const data::ArgumentError&) {
-  return std::nullopt;
-}
+  Point certified(const Place& p) const {
+    if (!certified_)
+      certified_ = std::make_unique<reference::ChannelEvaluator>(e_.mesh, values_, rule(), e_.lattice.scheme());
+    const auto parameter = [&](std::uint32_t n) {
+      return reference::Parameter::parse(fraction(n, p.denominator));
+    };
+    return point_of(certified_->evaluate(p.face, p.corner, parameter(p.i), parameter(p.j), 20)[0]);
+  }
+
+  // In diagonals; negative where nothing can be judged.
+  double error(const Point& got, const Point& expected) const {
+    return is_finite(got.value) ? distance(got.value, expected.value) / diagonal_ : -1;
+  }
+  double derivative_error(const Point& got, const Point& expected) const {
+    const auto& [by_u, by_v] = got.derivative;
+    if (!got.has_derivatives || !expected.has_derivatives) return -1;
+    if (!is_finite(by_u) || !is_finite(by_v)) return std::numeric_limits<double>::infinity();
+    return std::hypot(distance(by_u, expected.derivative[0]), distance(by_v, expected.derivative[1])) / diagonal_;
+  }
+  // Of the components that there are.
+  std::vector<double> shown(const Values& values) const { return {values.begin(), values.begin() + count_}; }
+
+ private:
+  const Evidence& e_;
+  std::size_t channel_;
+  int first_, count_;
+  data::Channel values_;  // of these components alone
+  double magnitude_ = 0, diagonal_ = 0;
+  mutable std::unique_ptr<const reference::ChannelEvaluator> certified_;
+};
+
+// A row of all parts. Channels of other sizes have other bounds: their errors are in units of the first one's.
+class ChannelRow {
+ public:
+  using Bound = double (Part::*)(std::int64_t) const;
+  using Error = double (Part::*)(const Point&, const Point&) const;
+
+  ChannelRow(const Evidence& e, const Corners& corners, const std::vector<Part>& parts, const char* check,
+             const char* unit, Bound bound, Error error)
+      : e_(e),
+        corners_(corners),
+        parts_(parts),
+        bound_(bound),
+        error_(error),
+        row_(e.result(check, unit, (parts[0].*bound)(kOrdinaryTerms))) {}
+
+  // Of the next part; returns how many corners are beyond their bounds.
+  std::int64_t add(const std::vector<Point>& expected) {
+    const Part& part = parts_[errors_.size() / corners_.all.size()];
+    std::int64_t bad = 0;
+    for (std::size_t c = 0; c < corners_.all.size(); ++c) {
+      const double off = (part.*error_)(part.got(corners_.all[c]), expected[corners_.all[c].at]);
+      errors_.push_back(off < 0 ? off : off * unit_of(part));
+      bad += off > 0 && !(errors_.back() <= bound_at(errors_.size() - 1));
+    }
+    return bad;
+  }
+
+  Result result() {
+    const auto bound = [&](std::size_t k) { return bound_at(k); };
+    const Confirmation confirmation = confirm(errors_, bound, [&](std::size_t k) {
+      const Part& part = part_of(k);
+      const double off = (part.*error_)(part.got(corner_of(k)), part.certified(place_of(k)));
+      return off < 0 ? off : off * unit_of(part);
+    });
+    const std::int64_t at = judge(errors_, bound, *row_.bound, confirmation.worst, "at vertices of high valence", row_);
+    row_.decades = decades(errors_);
+    count_places(row_, e_.lattice, errors_.size(), [&](std::size_t k) { return corners_.ids[corner_of(k).at]; },
+                 [&](std::size_t k) { return errors_[k] < 0 ? -1 : static_cast<int>(!(errors_[k] <= bound(k))); });
+    say(row_, confirmation.message);
+    if (at >= 0) show(static_cast<std::size_t>(at));
+    return row_;
+  }
+
+ private:
+  const Part& part_of(std::size_t k) const { return parts_[k / corners_.all.size()]; }
+  const Corner& corner_of(std::size_t k) const { return corners_.all[k % corners_.all.size()]; }
+  const Place& place_of(std::size_t k) const { return corners_.places[corner_of(k).at]; }
+  double unit_of(const Part& part) const {
+    return (parts_[0].*bound_)(kOrdinaryTerms) / (part.*bound_)(kOrdinaryTerms);
+  }
+  double bound_at(std::size_t k) const {
+    return (part_of(k).*bound_)(corners_.terms[corner_of(k).at]) * unit_of(part_of(k));
+  }
+  void show(std::size_t k) {
+    const Part& part = part_of(k);
+    const Corner& c = corner_of(k);
+    Witness& w = row_.witness.emplace(e_.at(place_of(k)));
+    w.vertex = e_.tessellation.triangles()[c.triangle][static_cast<std::size_t>(c.k)];
+    w.triangle = c.triangle;
+    w.channel = part.name();
+    const Point got = part.got(c), is = is_bad(row_) ? part.certified(place_of(k))
+                                                     : part.expected({place_of(k)}, part.channel(), part.rule())[0];
+    const auto put = [&](std::vector<double>& to, const Point& p) {
+      if (bound_ == &Part::bound) return void(to = part.shown(p.value));
+      for (const Values& d : p.derivative)
+        for (const double x : part.shown(d)) to.push_back(x);
+    };
+    put(w.got, got), put(w.expected, is);
+  }
+
+  const Evidence& e_;
+  const Corners& corners_;
+  const std::vector<Part>& parts_;
+  Bound bound_;
+  Error error_;
+  Result row_;
+  std::vector<double> errors_{};  // of all corners of the first part, then of the next
+};
 
 // Of each point, on its side of a seam, the corners that have it: the numbers of the cut mesh tell the sides apart.
-void check_shared_values(const Evidence& e, const std::vector<Corner>& corners, std::size_t channel,
-                         Result& row) {
+void check_shared_values(const Evidence& e, const Corners& corners, std::size_t channel, Result& row) {
   data::ControlMesh cut = e.mesh;
   cut.faces = reference::faces_of_cut(e.mesh, e.mesh.channels[channel]);
   std::int32_t most = 0;
@@ -111,10 +254,12 @@ void check_shared_values(const Evidence& e, const std::vector<Corner>& corners, 
   cut.positions.resize(static_cast<std::size_t>(most) + 1);
   cut.sharpness = {};
   const Lattice lattice(cut, e.lattice.scheme(), e.lattice.depth());
+  std::vector<Lattice::Id> ids;
+  for (const Place& p : corners.places) ids.push_back(lattice.id(p));
   std::unordered_map<Lattice::Id, const Corner*> first;
   std::unordered_set<Lattice::Id> several, different;
-  for (const Corner& c : corners) {
-    const Lattice::Id id = lattice.id(c.place);
+  for (const Corner& c : corners.all) {
+    const Lattice::Id id = ids[c.at];
     const auto [found, is_new] = first.try_emplace(id, &c);
     if (is_new) continue;
     several.insert(id);
@@ -122,8 +267,9 @@ void check_shared_values(const Evidence& e, const std::vector<Corner>& corners, 
                b = e.tessellation.channel_bits(channel, found->second->triangle, found->second->k);
     if (std::memcmp(a.data(), b.data(), a.size()) == 0 || !different.insert(id).second || row.witness)
       continue;
-    row.witness = e.at(c.place);
+    row.witness = e.at(corners.places[c.at]);
     row.witness->vertex = e.tessellation.triangles()[c.triangle][static_cast<std::size_t>(c.k)];
+    row.witness->channel = e.mesh.channels[channel].name;
   }
   row.of += static_cast<std::int64_t>(several.size());
   row.bad += static_cast<std::int64_t>(different.size());
@@ -132,68 +278,63 @@ void check_shared_values(const Evidence& e, const std::vector<Corner>& corners, 
 }  // namespace
 
 std::vector<Result> check_channels(const Evidence& e) {
-  Result positions = e.result("channel-positions", "diagonal of the channel"),
+  Result positions = e.result("channel-positions"), derivatives = e.result("channel-derivatives"),
          shared = e.result("channel-shared", "points", 0);
   const auto unlooked = [&](Status status, const char* why) {
-    positions.status = shared.status = status;
-    positions.message = shared.message = why;
-    return std::vector<Result>{positions, shared};
+    for (Result* row : {&positions, &derivatives, &shared}) row->status = status, row->message = why;
+    return std::vector<Result>{positions, derivatives, shared};
   };
   if (e.mesh.channels.empty())
-    return unlooked(Status::kNotSupported,
-                    "was handed no channel: it does not do the rule, or by Chaikin's creasing a semi-sharp "
-                    "edge ends on a seam");
+    return unlooked(Status::kNotSupported, "was handed no channel: it does not do the rule");
   if (e.tessellation.channel_count() == 0)
     return unlooked(Status::kNotRun, "no channel values were delivered");
   if (e.capabilities.points != LC_POINTS_LIMIT)
     return unlooked(Status::kNotSupported, "delivers no limit points");
 
-  const std::vector<Corner> corners = corners_of(e);
+  const Corners corners(e);
+  if (corners.all.empty()) return unlooked(Status::kNotRun, "there is no triangle whose corners are known");
   for (std::size_t c = 0; c < e.mesh.channels.size(); ++c) check_shared_values(e, corners, c, shared);
   settle(shared);
 
-  std::vector<double> all;
+  std::vector<Part> parts;
+  for (std::size_t c = 0; c < e.mesh.channels.size(); ++c)
+    for (int first = 0; first < e.mesh.channels[c].components; first += 3) parts.emplace_back(e, c, first);
+  ChannelRow of_values(e, corners, parts, "channel-positions", "diagonal of the channel", &Part::bound,
+                       &Part::error),
+      of_derivatives(e, corners, parts, "channel-derivatives", "diagonal of the channel", &Part::derivative_bound,
+                     &Part::derivative_error);
+  const bool differentiates = e.tessellation.has_channel_derivatives();
   std::string said;
-  std::optional<double> bound;
-  double worst = -1;
-  for (const Part& part : parts_of(e.mesh)) {
-    const data::ChannelRule rule = part.values.rule.value_or(data::kUsualChannelRule);
-    const Size size = size_of(part.values);
-    const double allowed =
-        position_bound(e.capabilities.precision, e.reference.steps(), size.magnitude, size.diagonal);
-    std::optional<std::vector<double>> found = errors(e, corners, part, rule, size.diagonal);
-    if (!found)
-      return unlooked(Status::kNotSupported,
-                      "by Chaikin's creasing a semi-sharp edge ends on a seam: only eval judges that");
-    if (!bound) bound = allowed;
-    const auto within = [&](double x) { return x <= allowed; };
-    const auto at = std::max_element(found->begin(), found->end());
-    if (at != found->end() && !within(*at) && said.empty())
-      said = other_rules(rule, corners.size(), [&](data::ChannelRule other) -> std::optional<std::int64_t> {
-        const auto by_other = errors(e, corners, part, other, size.diagonal);
-        if (!by_other) return std::nullopt;
-        return std::count_if(by_other->begin(), by_other->end(), within);
-      });
-    // Channels of other sizes have other bounds: their errors are in units of the first one's.
-    const double scale = *bound / allowed;
-    if (at != found->end() && *at * scale > worst) {
-      worst = *at * scale;
-      const Corner& c = corners[static_cast<std::size_t>(at - found->begin())];
-      positions.witness = e.at(c.place);
-      positions.witness->vertex = e.tessellation.triangles()[c.triangle][static_cast<std::size_t>(c.k)];
-      const Values got = delivered(e, c, part),
-                   is = exact(reference::ChannelSurface(e.mesh, part.values, rule, e.lattice.scheme()),
-                              c.place);
-      positions.witness->got.assign(got.begin(), got.begin() + part.count);
-      positions.witness->expected.assign(is.begin(), is.begin() + part.count);
+  std::int64_t without = 0, not_finite = 0;
+  for (const Part& part : parts) {
+    const std::vector<Point> expected = part.expected(corners.places, part.channel(), part.rule());
+    for (const Corner& c : corners.all) {
+      not_finite += !is_finite(part.got(c).value);
+      without += !expected[c.at].has_derivatives;
     }
-    for (const double x : *found) all.push_back(x * scale);
+    if (of_values.add(expected) > 0 && said.empty())
+      said = other_channels(
+          e.mesh, part.channel(), corners.all.size(),
+          [&](const data::Channel& other, data::ChannelRule by_rule) {
+            const std::vector<Point> by_other = part.expected(corners.places, other, by_rule);
+            return std::count_if(corners.all.begin(), corners.all.end(), [&](const Corner& c) {
+              const double off = part.error(part.got(c), by_other[c.at]);
+              return off >= 0 && off <= part.bound();
+            });
+          });
+    if (differentiates) of_derivatives.add(expected);
   }
-  positions.bound = bound;
-  take(positions, summarise(all, *bound));
-  positions.decades = decades(all);
-  positions.message = said;
-  return {positions, shared};
+  positions = of_values.result();
+  say(positions, said);
+  say_left_out(positions, not_finite, "values");
+  if (differentiates) {
+    derivatives = of_derivatives.result();
+    if (without > 0) say(derivatives, fmt::format("{} more where the limit has no derivatives", without));
+  } else {
+    derivatives.status = e.capabilities.channel_derivatives != 0 ? Status::kNotRun : Status::kNotSupported;
+    derivatives.message = "delivers no derivatives of channels";
+  }
+  return {positions, derivatives, shared};
 }
 
 }  // namespace limitcheck::verify

@@ -23,7 +23,7 @@ const std::vector<Check>& checks() {
       {"shared", {"shared-positions", "shared-normals"}, check_shared, false},
       {"continuity", {"continuity"}, check_continuity, true},
       {"watertight", {"watertight", "t-vertices"}, check_watertight, false},
-      {"channels", {"channel-positions", "channel-shared"}, check_channels, false},
+      {"channels", {"channel-positions", "channel-derivatives", "channel-shared"}, check_channels, false},
   };
   return all;
 }
@@ -32,10 +32,8 @@ bool has_matter(const Check& check, const data::ControlMesh& mesh) {
   return check.run != check_channels || !mesh.channels.empty();
 }
 
-Confirmation confirm(const Evidence& e, std::vector<double>& error,
-                     const std::function<Sides::Id(std::size_t)>& side,
-                     const std::function<double(std::size_t)>& bound,
-                     const std::function<double(std::size_t, const ExactPoint&)>& measure) {
+Confirmation confirm(std::vector<double>& error, const std::function<double(std::size_t)>& bound,
+                     const std::function<double(std::size_t)>& measure) {
   struct Suspect {
     double excess;
     std::size_t at;
@@ -56,8 +54,7 @@ Confirmation confirm(const Evidence& e, std::vector<double>& error,
     }
     end_if_interrupted();
     ++c.looked;
-    const ExactPoint* exact = e.reference.certified(side(v));
-    if (exact != nullptr) error[v] = measure(v, *exact);
+    error[v] = measure(v);
     if (error[v] < 0 || error[v] <= bound(v))
       ++c.acquitted;
     else if (c.worst < 0)
@@ -71,6 +68,16 @@ Confirmation confirm(const Evidence& e, std::vector<double>& error,
     if (c.left > 0) c.message += fmt::format(", and the other {} are not judged", c.left);
   }
   return c;
+}
+
+Confirmation confirm(const Evidence& e, std::vector<double>& error,
+                     const std::function<Sides::Id(std::size_t)>& side,
+                     const std::function<double(std::size_t)>& bound,
+                     const std::function<double(std::size_t, const ExactPoint&)>& measure) {
+  return confirm(error, bound, [&](std::size_t v) {
+    const ExactPoint* exact = e.reference.certified(side(v));
+    return exact != nullptr ? measure(v, *exact) : error[v];
+  });
 }
 
 std::int64_t judge(const std::vector<double>& error, const std::function<double(std::size_t)>& bound,

@@ -30,11 +30,15 @@ struct Confirmation {
 /// mesh: then up to kMostCertified are evaluated, and the others are not judged.
 ///   error    of each vertex, or of each use of a vertex; negative where there is none; corrected where it
 ///            was looked at
-///   side     whose exact point it is held against
 ///   bound    of an error
-///   measure  the error against the exact point, negative if nothing can be judged there
+///   measure  the error against certified numbers, negative if nothing can be judged there
 /// A point that the certified evaluator does not take counts as confirmed. Throws Interrupted.
 inline constexpr std::int64_t kMostCertified = 1000;
+Confirmation confirm(std::vector<double>& error, const std::function<double(std::size_t)>& bound,
+                     const std::function<double(std::size_t)>& measure);
+/// The same of points of the surface.
+///   side     whose exact point an error is held against
+///   measure  the error against that
 Confirmation confirm(const Evidence& e, std::vector<double>& error,
                      const std::function<Sides::Id(std::size_t)>& side,
                      const std::function<double(std::size_t)>& bound,
@@ -91,8 +95,9 @@ std::vector<Result> check_continuity(const Evidence&);
 std::vector<Result> check_watertight(const Evidence&);
 
 /// `channel-positions`: at each corner of a triangle the values of the mesh's channels, on the side of the seam
-/// on which the triangle lies; `channel-shared`: a value that several triangles have has the same bits in each. Not
-/// supported where the subject was handed no channel.
+/// on which the triangle lies; `channel-derivatives`: their derivatives there, if the subject delivers them;
+/// `channel-shared`: a value that several triangles have has the same bits in each. Not supported where the subject
+/// was handed no channel.
 std::vector<Result> check_channels(const Evidence&);
 
 struct Check {

@@ -77,6 +77,7 @@ MeshSample::MeshSample(const ControlMesh& whole, std::size_t faces, std::uint64_
   data::CutOut cut = data::cut_out(whole.faces, faces_);
   part_ = {cut.of(whole.positions), {}, cut.of(whole.sharpness)};
   part_.faces = std::move(cut.faces);
+  part_.channels = data::channels_of(whole.channels, whole.faces, faces_);
   vertices_ = std::move(cut.vertices);
 }
 
@@ -96,6 +97,7 @@ ControlMesh MeshSample::part_with(const ControlMesh& positions) const {
   ControlMesh mesh;
   mesh.faces = part_.faces;
   mesh.sharpness = part_.sharpness;
+  mesh.channels = data::channels_of(positions.channels, positions.faces, faces_);
   mesh.positions.reserve(vertices_.size());
   for (const std::int32_t v : vertices_) mesh.positions.push_back(positions.positions[v]);
   return mesh;

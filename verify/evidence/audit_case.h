@@ -40,7 +40,7 @@ class MeshSample {
   std::vector<std::int32_t> cull(std::vector<std::int32_t> depth_of_whole) const;
   /// Depths of the part.
   std::vector<std::int32_t> depths_of_part(std::span<const std::int32_t> depth_of_whole) const;
-  /// The part with the positions of another mesh of the same connectivity as the whole (a rounded one).
+  /// The part with the positions and channels of another mesh of the same connectivity as the whole (a rounded one).
   data::ControlMesh part_with(const data::ControlMesh& positions) const;
 
  private:

@@ -13,7 +13,6 @@
 
 #include "data/error.h"
 #include "data/validate.h"
-#include "reference/surface/channel.h"
 #include "verify/host/host_memory.h"
 #include "verify/host/matching.h"
 #include "verify/host/subject_call.h"
@@ -47,7 +46,8 @@ std::string impossible(const lc_capabilities& c) {
                                {"per_face_depth", c.per_face_depth},
                                {"exact_lattice", c.exact_lattice},
                                {"does_not_validate", c.does_not_validate},
-                               {"no_provenance", c.no_provenance}})
+                               {"no_provenance", c.no_provenance},
+                               {"channel_derivatives", c.channel_derivatives}})
     if (choice.value != 0 && choice.value != 1)
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
@@ -126,13 +126,11 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
     throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
-  // A channel that is none of the mesh, as of one with fewer faces, is nobody's to interpolate; nor is one that nobody here
-  // could judge.
+  // A channel that is none of the mesh, as of one with fewer faces, is nobody's to interpolate.
   std::erase_if(mesh_.channels, [&](const data::Channel& c) {
     const data::ChannelRule rule = c.rule.value_or(data::kUsualChannelRule);
     return (capabilities_.channel_rules >> static_cast<int>(rule) & 1) == 0 ||
-           !data::fault_of(c, mesh_).empty() ||
-           (input == Input::kValid && !reference::has_exact_cut(mesh_, c, rule));
+           !data::fault_of(c, mesh_).empty();
   });
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
@@ -230,7 +228,7 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
         expected_ = std::make_shared<RefinedComplex>(mesh_, lent_.scheme, depth);
       return match(*expected_, t);
     };
-  result.inspect(delivered, capabilities_.normals != 0, find_places);
+  result.inspect(delivered, capabilities_, find_places);
 
   if (const LentMesh before(mesh_, lent_.scheme); !(before == lent_))
     result.defects_.push_back({Defect::Kind::kMeshModified, "mesh", 1, -1, changes(before, lent_)});

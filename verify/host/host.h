@@ -114,6 +114,11 @@ class Tessellation {
   /// A component of the value at corner k of triangle t, and the bytes of all of them.
   double channel_value(std::size_t channel, std::int64_t t, int k, int component) const;
   std::span<const std::byte> channel_bits(std::size_t channel, std::int64_t t, int k) const;
+  /// Numbers at the corners of triangle t, values and derivatives, that still hold the 0xFF bytes.
+  std::int64_t channels_unwritten(std::int64_t t) const;
+  /// The derivative of a component by a parameter, 0 or 1.
+  bool has_channel_derivatives() const { return channel_derivatives_ != nullptr; }
+  double channel_derivative(std::size_t channel, std::int64_t t, int k, int component, int parameter) const;
 
   /// Indices and control face of triangle t are in range.
   bool triangle_ok(std::int64_t t) const;
@@ -139,10 +144,13 @@ class Tessellation {
     if (precision != precision_ || data == nullptr) return {};
     return {static_cast<const T*>(data), 3 * static_cast<std::size_t>(vertices_)};
   }
+  // The components at corner k of triangle t begin at so many times the numbers that a component has.
+  std::size_t channel_place(std::size_t channel, std::int64_t t, int k) const;
+  double number(const void* array, std::size_t at) const;
   bool indices_ok(std::int64_t t) const;
   bool face_ok(std::int64_t t) const;
   // find_places: of a subject without provenance.
-  void inspect(const lc_tessellation& out, bool promises_normals,
+  void inspect(const lc_tessellation& out, const lc_capabilities& promised,
                const std::function<Matching(const Bare&)>& find_places);
   void inspect_contents();
   void take_places(const std::function<Matching(const Bare&)>& find_places);
@@ -160,6 +168,7 @@ class Tessellation {
   std::int32_t* triangle_face_ = nullptr;
   const std::int32_t* corner_ = nullptr;
   const void* channel_values_ = nullptr;
+  const void* channel_derivatives_ = nullptr;
   std::vector<std::int32_t> channel_components_;  // of each channel of the mesh
   std::vector<Defect> defects_;
   std::vector<Overrun> overruns_;

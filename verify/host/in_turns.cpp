@@ -2,9 +2,11 @@
 #include "verify/host/in_turns.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -86,11 +88,38 @@ class Instance {
   bool alive_ = false;
 };
 
-// Each has as many vertices and faces, and differs in one thing that caches are known to leave out.
-std::vector<LentMesh> look_alikes(LentMesh mesh, std::int32_t sharp) {
-  mesh.channels.clear();  // another mesh may have them and be none that channels go with
-  const auto declared = [sharp](std::int32_t kinds) { return (sharp & kinds) == kinds; };
+// The same mesh with other channels: other values, other seams, another rule.
+std::vector<LentMesh> other_channels(const LentMesh& mesh, std::int32_t rules) {
   std::vector<LentMesh> all;
+  if (mesh.channels.empty()) return all;
+  const auto change = [&](auto&& each) {
+    LentMesh other = mesh;
+    for (auto& channel : other.channels) each(channel);
+    all.push_back(std::move(other));
+  };
+  change([](auto& channel) {
+    for (double& x : channel.values) x *= 2;
+  });
+  change([&](auto& channel) {
+    std::map<std::int32_t, std::int32_t> first;
+    for (std::size_t c = 0; c < channel.corners.size(); ++c)
+      channel.corners[c] = first.emplace(mesh.corners[c], channel.corners[c]).first->second;
+  });
+  if (std::has_single_bit(static_cast<std::uint32_t>(rules))) return all;
+  change([&](auto& channel) {
+    int rule = channel.rule;
+    do rule = (rule + 1) % (LC_CHANNEL_ALL + 1);
+    while ((rules >> rule & 1) == 0);
+    channel.rule = static_cast<lc_channel_rule>(rule);
+  });
+  return all;
+}
+
+// Each has as many vertices and faces, and differs in one thing that caches are known to leave out.
+std::vector<LentMesh> look_alikes(LentMesh mesh, const lc_capabilities& capabilities) {
+  std::vector<LentMesh> all = other_channels(mesh, capabilities.channel_rules);
+  mesh.channels.clear();
+  const auto declared = [sharp = capabilities.sharp](std::int32_t kinds) { return (sharp & kinds) == kinds; };
   // Other vertices under each number, at other places.
   LentMesh& renumbered = all.emplace_back(mesh);
   const auto last = static_cast<std::size_t>(mesh.vertices()) - 1;
@@ -283,7 +312,7 @@ InTurns::InTurns(const lc_subject& of) : subject_(of) {
     turns->mine = std::make_unique<Instance>(mine, given);
     turns->other_is_first = first < kFirst.size();
     if (!turns->other_is_first)
-      for (LentMesh& alike : look_alikes(mine, turns->capabilities.sharp))
+      for (LentMesh& alike : look_alikes(mine, turns->capabilities))
         turns->alike.push_back(std::make_unique<Instance>(std::move(alike), given));
     const data::ControlMesh other = first == 0                ? data::tetrahedron()
                                     : first == 1              ? data::bipyramid(60)

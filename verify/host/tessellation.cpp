@@ -19,6 +19,7 @@ struct Array {
   std::int64_t elements;
   std::size_t element_size, alignment;
   bool required;
+  bool dispensable = false;  // what is there is looked at without it
   const std::byte* begin() const { return static_cast<const std::byte*>(data); }
   std::size_t bytes() const { return static_cast<std::size_t>(elements) * element_size; }
 };
@@ -38,7 +39,7 @@ void count_bad(std::vector<Defect>& defects, Defect::Kind kind, const char* arra
   }
 }
 
-using Arrays = std::array<Array, 7>;
+using Arrays = std::array<Array, 8>;
 using Kind = Defect::Kind;
 
 void note(std::vector<Defect>& defects, Kind kind, const char* array, std::string message) {
@@ -80,8 +81,7 @@ bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vect
       if (!a.required || a.elements <= 0) continue;
       note(defects, Kind::kMissingArray, a.name,
            fmt::format("{} is NULL, {} elements were announced", a.name, a.elements));
-      usable =
-          usable && (std::string_view(a.name) == "normals" || std::string_view(a.name) == "channel_values");
+      usable = usable && a.dispensable;
       continue;
     }
     const auto* block = memory.find(a.data);
@@ -156,20 +156,46 @@ bool Tessellation::triangle_ok(std::int64_t t) const {
   return face_ok(t) && indices_ok(t);
 }
 
-std::span<const std::byte> Tessellation::channel_bits(std::size_t channel, std::int64_t t, int k) const {
+std::size_t Tessellation::channel_place(std::size_t channel, std::int64_t t, int k) const {
   std::int64_t before = 0;  // components of earlier channels
   for (std::size_t c = 0; c < channel; ++c) before += channel_components_[c];
-  const std::int64_t components = channel_components_[channel];
-  const auto first = static_cast<std::size_t>(3 * triangles_ * before + (3 * t + k) * components);
-  return {static_cast<const std::byte*>(channel_values_) + first * coordinate_size(),
-          static_cast<std::size_t>(components) * coordinate_size()};
+  return static_cast<std::size_t>(3 * triangles_ * before + (3 * t + k) * channel_components_[channel]);
+}
+
+double Tessellation::number(const void* array, std::size_t at) const {
+  return precision_ == LC_FLOAT64 ? static_cast<const double*>(array)[at]
+                                  : static_cast<double>(static_cast<const float*>(array)[at]);
+}
+
+std::span<const std::byte> Tessellation::channel_bits(std::size_t channel, std::int64_t t, int k) const {
+  return {static_cast<const std::byte*>(channel_values_) + channel_place(channel, t, k) * coordinate_size(),
+          static_cast<std::size_t>(channel_components_[channel]) * coordinate_size()};
 }
 
 double Tessellation::channel_value(std::size_t channel, std::int64_t t, int k, int component) const {
-  const std::byte* const number =
-      channel_bits(channel, t, k).data() + static_cast<std::size_t>(component) * coordinate_size();
-  if (precision_ == LC_FLOAT64) return *reinterpret_cast<const double*>(number);
-  return *reinterpret_cast<const float*>(number);
+  return number(channel_values_, channel_place(channel, t, k) + static_cast<std::size_t>(component));
+}
+
+std::int64_t Tessellation::channels_unwritten(std::int64_t t) const {
+  std::int64_t count = 0;
+  const std::size_t size = coordinate_size();
+  for (std::size_t c = 0; c < channel_count(); ++c)
+    for (const auto& [array, each] : {std::pair{channel_values_, 1}, {channel_derivatives_, 2}}) {
+      if (array == nullptr) continue;
+      const auto numbers = static_cast<std::size_t>(3 * each * channel_components_[c]);
+      const auto* from = static_cast<const std::byte*>(array) +
+                         static_cast<std::size_t>(each) * channel_place(c, t, 0) * size;
+      for (std::size_t n = 0; n < numbers; ++n, from += size)
+        count += std::all_of(from, from + size, [](std::byte b) { return b == std::byte{0xFF}; });
+    }
+  return count;
+}
+
+double Tessellation::channel_derivative(std::size_t channel, std::int64_t t, int k, int component,
+                                        int parameter) const {
+  return number(channel_derivatives_,
+                2 * channel_place(channel, t, k) +
+                    static_cast<std::size_t>(parameter * channel_components_[channel] + component));
 }
 
 void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t count) {
@@ -191,15 +217,16 @@ bool Tessellation::provenance_ok(std::int64_t v) const {
   return domain.contains(point_of(p), domain.steps(p.denominator));
 }
 
-void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
+void Tessellation::inspect(const lc_tessellation& out, const lc_capabilities& promised,
                            const std::function<Matching(const Bare&)>& find_places) {
   const bool delivered = !find_places;
   const std::size_t real = coordinate_size();
   std::size_t components = 0;  // of all channels
   for (const std::int32_t c : channel_components_) components += static_cast<std::size_t>(c);
+  const bool channels = components > 0, derivatives = channels && promised.channel_derivatives != 0;
   const Arrays arrays{{
       {"positions", out.positions, out.vertex_count, 3 * real, real, true},
-      {"normals", out.normals, out.vertex_count, 3 * real, real, promises_normals},
+      {"normals", out.normals, out.vertex_count, 3 * real, real, promised.normals != 0, true},
       {"provenance", out.provenance, out.vertex_count, sizeof(lc_provenance), alignof(lc_provenance),
        delivered},
       {"triangles", out.triangles, out.triangle_count, 3 * sizeof(std::uint32_t), alignof(std::uint32_t),
@@ -207,8 +234,10 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
       {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
        delivered},
       {"corner", out.corner, out.vertex_count, sizeof(std::int32_t), alignof(std::int32_t), false},
-      {"channel_values", components == 0 ? nullptr : out.channel_values, out.triangle_count,
-       3 * components * real, real, components > 0},
+      {"channel_values", channels ? out.channel_values : nullptr, out.triangle_count, 3 * components * real,
+       real, channels, true},
+      {"channel_derivatives", derivatives ? out.channel_derivatives : nullptr, out.triangle_count,
+       6 * components * real, real, derivatives, true},
   }};
   find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
   if (!counts_usable(out, defects_) || !memory_usable(*memory_, arrays, defects_) ||
@@ -223,7 +252,8 @@ void Tessellation::inspect(const lc_tessellation& out, bool promises_normals,
   indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
   triangle_face_ = out.triangle_face;
   corner_ = out.corner;
-  channel_values_ = components == 0 ? nullptr : out.channel_values;
+  channel_values_ = channels ? out.channel_values : nullptr;
+  channel_derivatives_ = derivatives ? out.channel_derivatives : nullptr;
   count_bad(
       defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
       [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");

@@ -28,6 +28,12 @@ Delivered::Delivered(const Tessellation& good) : single(good.precision() == LC_F
       for (int k = 0; k < 3; ++k)
         for (int component = 0; component < good.components(c); ++component)
           channel_values.push_back(good.channel_value(c, t, k, component));
+  for (std::size_t c = 0; good.has_channel_derivatives() && c < good.channel_count(); ++c)
+    for (std::int64_t t = 0; t < good.triangle_count(); ++t)
+      for (int k = 0; k < 3; ++k)
+        for (const int by : {0, 1})
+          for (int component = 0; component < good.components(c); ++component)
+            channel_derivatives.push_back(good.channel_derivative(c, t, k, component, by));
   for (std::int64_t v = 0; v < good.vertex_count(); ++v) {
     positions.push_back(good.position(v));
     if (good.has_normals()) normals.push_back(good.normal(v));

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "reference/channel/channel_mesh.h"
-#include "reference/surface/channel.h"
 #include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify {
@@ -27,9 +26,8 @@ const Channel& uv_of(A a) {
 ChannelRule rule_of(A a) {
   return uv_of(a).rule.value_or(data::kUsualChannelRule);
 }
-// Whether a subject is handed the channel: see Session.
 bool has_channel(A a) {
-  return !a.mesh.channels.empty() && reference::has_exact_cut(a.mesh, uv_of(a), rule_of(a));
+  return !a.mesh.channels.empty();
 }
 
 Change of_channels(Change c, std::function<bool(A)> shows = {}) {
@@ -263,14 +261,14 @@ std::vector<Change> by_values() {
       channel("channel_of_a_byte", "values have eight bits", each_value([](double& u, double& v) {
                 u = std::round(u * 255) / 255, v = std::round(v * 255) / 255;
               })),
-      values_of_channel("channel_nan", "one value is NaN", "channel-positions",
+      values_of_channel("channel_nan", "one value is NaN", "finite",
                         [](A, std::vector<double>& all) {
                           all[all.size() / 2] = std::numeric_limits<double>::quiet_NaN();
                         }),
       values_of_channel(
-          "channel_infinite", "one value is infinite", "channel-positions",
+          "channel_infinite", "one value is infinite", "finite",
           [](A, std::vector<double>& all) { all.back() = std::numeric_limits<double>::infinity(); }),
-      values_of_channel("channel_unwritten", "the last value is not written", "channel-positions",
+      values_of_channel("channel_unwritten", "the last value is not written", "written",
                         [](A, std::vector<double>& all) { std::memset(&all.back(), 0xFF, sizeof(double)); }),
       values_of_channel("channel_moved_value", "one value is off by a thousandth", "channel-positions",
                         [](A, std::vector<double>& all) { all[0] += 1e-3; }),
@@ -309,6 +307,158 @@ std::vector<Change> by_values() {
   };
 }
 
+// The channel of the mesh that is cut along the seams, as its ordinary surface.
+data::ControlMesh cut_along_seams(A a, bool& is_exact) {
+  const reference::ChannelCut cut = reference::cut_and_hold(
+      {a.topology, a.mesh.sharpness, uv_of(a).corners, rule_of(a)}, a.mesh.sharpness.triangles);
+  is_exact = cut.is_exact;
+  data::ControlMesh mesh;
+  mesh.faces = cut.faces;
+  Channel& uv = mesh.channels.emplace_back(Channel{"uv", 2, {}, {}, ChannelRule::kNone});
+  for (const std::size_t c : cut.corner_of) {
+    mesh.positions.push_back(a.mesh.positions[static_cast<std::size_t>(a.mesh.faces.corners()[c])]);
+    uv.values.insert(uv.values.end(), {uv_of(a).at(c, 0), uv_of(a).at(c, 1)});
+  }
+  uv.corners.assign(cut.faces.corners().begin(), cut.faces.corners().end());
+  for (const auto& e : cut.tags.edges)
+    mesh.sharpness.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
+  for (const auto& v : cut.tags.vertices)
+    mesh.sharpness.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
+  mesh.sharpness.creasing = cut.tags.creasing, mesh.sharpness.triangles = cut.tags.triangles;
+  return mesh;
+}
+
+// Of each corner of each triangle: its two derivatives by the first parameter, then those by the second.
+Change derivatives(const char* name, const char* description,
+                   std::function<void(A, std::vector<double>&, const Delivered&)> what,
+                   std::function<bool(A)> shows = {}, const char* check = "channel-derivatives") {
+  return of_channels(deliver(name, description, check,
+                             [what = std::move(what)](A a, D out) {
+                               if (out.channel_derivatives.empty()) nowhere("derivative");
+                               std::vector<double> all = out.channel_derivatives;
+                               what(a, all, out);
+                               out.channel_derivatives = std::move(all);
+                             }),
+                     std::move(shows));
+}
+// Each four numbers.
+Change each_derivative(const char* name, const char* description,
+                       std::function<void(A, std::int32_t face, double* d)> what,
+                       std::function<bool(A)> shows = {}) {
+  return derivatives(
+      name, description,
+      [what](A a, std::vector<double>& all, const Delivered& out) {
+        for (std::size_t c = 0; 4 * c < all.size(); ++c) what(a, out.triangle_face[c / 3], &all[4 * c]);
+      },
+      std::move(shows));
+}
+// Those of another channel on the same mesh.
+Change derivatives_of(const char* name, const char* description, std::function<void(A, Uv)> other) {
+  const auto changed = [other](A a) {
+    data::ControlMesh mesh = a.mesh;
+    other(a, mesh.channels.front());
+    return mesh;
+  };
+  return derivatives(
+      name, description,
+      [changed](A a, std::vector<double>& all, const Delivered&) {
+        all = a.again(changed(a), {a.depth.begin(), a.depth.end()}).channel_derivatives;
+      },
+      [changed](A a) { return !(changed(a) == a.mesh); });
+}
+
+std::vector<Change> by_derivatives() {
+  const auto deep = [](A a) { return a.deepest > 0; };
+  return {
+      each_derivative("channel_derivatives_swapped", "derivatives by u and by v are exchanged",
+                      [](A, std::int32_t, double* d) { std::swap_ranges(d, d + 2, d + 2); }),
+      each_derivative("channel_derivatives_transposed", "the components are exchanged in derivatives",
+                      [](A, std::int32_t, double* d) { std::swap(d[0], d[1]), std::swap(d[2], d[3]); }),
+      each_derivative("channel_derivatives_first_component", "of the first component alone",
+                      [](A, std::int32_t, double* d) { d[1] = d[3] = 0; }),
+      each_derivative("channel_derivatives_negated", "derivatives by v point the other way",
+                      [](A, std::int32_t, double* d) { d[2] = -d[2], d[3] = -d[3]; }),
+      each_derivative("channel_derivatives_by_one_parameter", "derivatives by u stand for both",
+                      [](A, std::int32_t, double* d) { std::copy_n(d, 2, d + 2); }),
+      each_derivative(
+          "channel_derivatives_of_level", "derivatives by the parameters of the smallest quads",
+          [](A a, std::int32_t f, double* d) {
+            for (int k = 0; k < 4; ++k) d[k] = std::ldexp(d[k], -a.depth[static_cast<std::size_t>(f)]);
+          },
+          deep),
+      each_derivative("channel_derivatives_of_unit_length", "derivatives are scaled to unit length",
+                      [](A, std::int32_t, double* d) {
+                        for (int by = 0; by < 4; by += 2)
+                          if (const double size = std::hypot(d[by], d[by + 1]); size > 0)
+                            d[by] /= size, d[by + 1] /= size;
+                      }),
+      on(Change::On::kQuads,
+         each_derivative(
+             "channel_derivatives_of_polygons", "derivatives of faces that are no quads are twice as large",
+             [](A a, std::int32_t f, double* d) {
+               for (int k = 0; k < 4 && a.is_polygon(static_cast<std::size_t>(f)); ++k) d[k] *= 2;
+             },
+             [](A a) {
+               bool any = false;
+               for (std::size_t f = 0; f < a.mesh.faces.size(); ++f) any = any || a.is_polygon(f);
+               return any && a.deepest > 0;
+             })),
+      derivatives_of("channel_derivatives_without_seams", "derivatives of one value for each vertex",
+                     [](A a, Uv uv) { join_seams(a, uv, [](std::int32_t) { return true; }); }),
+      derivatives_of("channel_derivatives_bilinear", "derivatives of the rule all",
+                     [](A, Uv uv) { uv.rule = ChannelRule::kAll; }),
+      derivatives_of("channel_derivatives_of_none", "derivatives of the rule none",
+                     [](A, Uv uv) { uv.rule = ChannelRule::kNone; }),
+      derivatives("channel_derivatives_of_next_corner", "derivatives are those of the next corner",
+                  [](A, std::vector<double>& all, const Delivered&) {
+                    for (std::size_t t = 0; t + 12 <= all.size(); t += 12)
+                      std::rotate(&all[t], &all[t + 4], &all[t] + 12);
+                  },
+                  deep),
+      derivatives("channel_derivatives_by_parameter", "all derivatives by u come first",
+                  [](A, std::vector<double>& all, const Delivered&) {
+                    const std::vector<double> before = all;
+                    for (std::size_t c = 0; 4 * c < all.size(); ++c) {
+                      std::copy_n(&before[4 * c], 2, &all[2 * c]);
+                      std::copy_n(&before[4 * c + 2], 2, &all[all.size() / 2 + 2 * c]);
+                    }
+                  }),
+      derivatives("channel_derivatives_of_chords", "derivatives along the triangle's sides",
+                  [](A a, std::vector<double>& all, const Delivered& out) {
+                    // Of the values at the corners, where the triangle has sides along both parameters.
+                    for (std::size_t t = 0; t < out.triangles.size(); ++t) {
+                      std::array<std::array<double, 2>, 3> at{};
+                      for (std::size_t k = 0; k < 3; ++k) {
+                        const Place p = out.place(out.triangles[t][k]);
+                        at[k] = {double(p.i) / p.denominator, double(p.j) / p.denominator};
+                      }
+                      if (a.is_polygon(static_cast<std::size_t>(out.triangle_face[t]))) continue;
+                      const double ax = at[1][0] - at[0][0], ay = at[1][1] - at[0][1], bx = at[2][0] - at[0][0],
+                                   by = at[2][1] - at[0][1], det = ax * by - ay * bx;
+                      const double* v = &out.channel_values[6 * t];
+                      for (std::size_t k = 0; k < 3; ++k)
+                        for (std::size_t c = 0; c < 2; ++c) {
+                          const double p = v[2 + c] - v[c], q = v[4 + c] - v[c];
+                          all[12 * t + 4 * k + c] = (p * by - q * ay) / det;
+                          all[12 * t + 4 * k + 2 + c] = (q * ax - p * bx) / det;
+                        }
+                    }
+                  }),
+      derivatives("channel_derivatives_nan", "the derivatives at one triangle are NaN",
+                  [](A, std::vector<double>& all, const Delivered&) {
+                    std::fill(all.end() - 12, all.end(), std::numeric_limits<double>::quiet_NaN());
+                  },
+                  deep),
+      derivatives("channel_derivatives_unwritten", "the last derivative is not written",
+                  [](A, std::vector<double>& all, const Delivered&) {
+                    std::memset(&all.back(), 0xFF, sizeof(double));
+                  },
+                  {}, "written"),
+      derivatives("channel_derivatives_missing", "derivatives are promised and not delivered",
+                  [](A, std::vector<double>& all, const Delivered&) { all.clear(); }, {}, "written"),
+  };
+}
+
 std::vector<Change> by_places() {
   using enum ChannelRule;
   return {
@@ -327,6 +477,19 @@ std::vector<Change> by_places() {
                on_boundary),
       on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
                                       [](A a, std::size_t f) { return a.is_polygon(f); })),
+      sharp(of_channels(
+          deliver("channel_chaikin_in_the_cut", "by Chaikin's creasing sharpness falls in the mesh that is cut",
+                  "channel-positions",
+                  [](A a, D out) {
+                    bool is_exact = false;
+                    out.channel_values =
+                        a.again(cut_along_seams(a, is_exact), {a.depth.begin(), a.depth.end()}).channel_values;
+                  }),
+          [](A a) {
+            bool is_exact = false;
+            cut_along_seams(a, is_exact);
+            return !is_exact && rule_of(a) < ChannelRule::kBoundaries;
+          })),
       tags_of_channel("channel_without_tags", "channels know no sharp edges and vertices",
                       [](Tags t) { t = {}; }),
       tags_of_channel("channel_without_sharp_vertices", "channels know no sharp vertices",
@@ -354,7 +517,7 @@ std::vector<Change> by_places() {
 
 std::vector<Change> faults_of_channels() {
   std::vector<Change> all;
-  for (auto& list : {by_rules(), by_indices(), by_values(), by_places()})
+  for (auto& list : {by_rules(), by_indices(), by_values(), by_places(), by_derivatives()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }

@@ -211,12 +211,14 @@ class ChangedSubject {
                             : allocate(request);
     copy.write(output);
     // Triangles that were added or left out have no channel values: then none are delivered.
-    if (mesh_.channels.size() == 1 && !copy.channel_values.empty() &&
-        copy.channel_values.size() ==
-            3 * triangles * static_cast<std::size_t>(mesh_.channels[0].components)) {
-      Real* to = allocate_channels<Real>(request, lent_, out);
-      for (const double x : copy.channel_values) *to++ = static_cast<Real>(x);
-    }
+    const std::size_t values = 3 * triangles * components_of_channels(lent_);
+    const auto put = [&](const std::vector<double>& numbers, std::size_t count, auto array) {
+      if (numbers.empty() || numbers.size() != count) return;
+      Real* to = allocate_channels<Real>(request, lent_, out, array);
+      for (const double x : numbers) *to++ = static_cast<Real>(x);
+    };
+    put(copy.channel_values, values, &lc_tessellation::channel_values);
+    put(copy.channel_derivatives, 2 * values, &lc_tessellation::channel_derivatives);
     if (copy.overrun) output.positions[3 * vertices] = Real(1);
     if (copy.underrun) output.positions[-1] = Real(1);
     if (copy.modify_mesh) const_cast<double*>(lent_.positions)[0] += 1;

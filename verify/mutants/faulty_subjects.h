@@ -33,7 +33,8 @@ namespace limitcheck::verify {
 /// What a subject delivered, exact in double, so that vertices and triangles can be changed, added and removed.
 struct Delivered : DeliveredArrays {
   bool single = false;                 // it is delivered in float
-  std::vector<double> channel_values;  // of the channels that the mesh has, as lc_tessellation says
+  // Of the channels that the mesh has, as lc_tessellation says; the latter empty: not delivered.
+  std::vector<double> channel_values, channel_derivatives;
   // What is done when it is handed over.
   std::optional<std::int64_t> announced_vertices = std::nullopt;
   bool foreign_normals = false, overlap = false, overrun = false, underrun = false, modify_mesh = false;

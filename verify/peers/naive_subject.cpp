@@ -152,6 +152,7 @@ class NaiveSubject {
     result.sharp =
         LC_SHARP_CREASES | LC_SHARP_SEMI | LC_SHARP_CHAIKIN | LC_SHARP_CORNERS | LC_SHARP_SMOOTH_TRIANGLES;
     result.channel_rules = kAllChannelRules;
+    result.channel_derivatives = 1;
     return result;
   }
 
@@ -199,9 +200,12 @@ class NaiveSubject {
                           /*with_corners=*/scheme_ == data::Scheme::kCatmullClark);
     if (mesh_.channels.empty()) return;
     double* to = allocate_channels<double>(request, lent_, out);
+    double* derivatives =
+        allocate_channels<double>(request, lent_, out, &lc_tessellation::channel_derivatives);
     for (const data::Channel& channel : mesh_.channels) {
-      put_channel(channel, faces, depth, to);
+      put_channel(channel, faces, depth, to, derivatives);
       to += 3 * std::ssize(all.triangles) * channel.components;
+      derivatives += 6 * std::ssize(all.triangles) * channel.components;
     }
   }
 
@@ -240,13 +244,20 @@ class NaiveSubject {
   // Of each corner of each triangle; of the values of one point on one side of a seam the first in the order of their
   // bits is taken, as of positions. Channels are evaluated by the reference, three components at a time.
   void put_channel(const data::Channel& channel, const std::vector<std::unique_ptr<Face>>& faces,
-                   std::span<const std::int32_t> depth, double* to) const {
+                   std::span<const std::int32_t> depth, double* to, double* derivatives) const {
     const data::Faces cut = reference::faces_of_cut(mesh_, channel);
     const data::ChannelRule rule = channel.rule.value_or(data::kUsualChannelRule);
     for (int first = 0; first < channel.components; first += 3) {
       const int count = std::min(3, channel.components - first);
       const reference::ChannelSurface surface(mesh_, channel.some(first, count), rule, scheme_);
+      const auto evaluate = [&](std::size_t f, const FaceDomain::Point& at) {
+        const double n =
+            std::max(1., static_cast<double>(domain(f).denominator(std::int64_t{1} << depth[f])));
+        return surface.evaluate(static_cast<int>(f), at.part, static_cast<double>(at.i) / n,
+                                static_cast<double>(at.j) / n);
+      };
       std::vector<std::vector<Vec3>> values(faces.size());
+      std::vector<std::vector<std::array<Vec3, 2>>> slopes(faces.size());
       std::map<BorderPoint, Vec3> agreed;
       BorderPoint point{};
       const auto each = [&](const auto& body) {
@@ -255,14 +266,11 @@ class NaiveSubject {
             body(f, v, faces[f]->vertices[v]);
       };
       each([&](std::size_t f, std::size_t v, const Corner& corner) {
-        const double n =
-            std::max(1., static_cast<double>(domain(f).denominator(std::int64_t{1} << depth[f])));
         values[f].resize(faces[f]->vertices.size());
-        values[f][v] =
-            surface
-                .evaluate(static_cast<int>(f), corner.at.part, static_cast<double>(corner.at.i) / n,
-                          static_cast<double>(corner.at.j) / n)
-                .position;
+        slopes[f].resize(values[f].size());
+        const auto at = evaluate(f, corner.at);
+        values[f][v] = at.position;
+        slopes[f][v] = {at.d1, at.d2};
         if (on_border(cut[f], domain(f), corner, depth[f], point) >= 0)
           agree(agreed.try_emplace(point, values[f][v]).first->second, values[f][v]);
       });
@@ -270,14 +278,30 @@ class NaiveSubject {
         if (on_border(cut[f], domain(f), corner, depth[f], point) >= 0) values[f][v] = agreed.at(point);
       });
       std::size_t written = 0;
+      const auto put = [&](const Vec3& value, double* place) {
+        const std::array all{value.x, value.y, value.z};
+        std::copy_n(all.begin(), count, place + first);
+      };
+      const auto components = static_cast<std::size_t>(channel.components);
       for (std::size_t f = 0; f < faces.size(); ++f)
-        for (std::size_t t = 0; faces[f] != nullptr && t < faces[f]->triangles.size(); ++t)
-          for (const std::uint32_t v : faces[f]->triangles[t]) {
-            const Vec3& value = values[f][v];
-            const std::array all{value.x, value.y, value.z};
-            std::copy_n(all.begin(), count, to + written + first);
-            written += static_cast<std::size_t>(channel.components);
+        for (std::size_t t = 0; faces[f] != nullptr && t < faces[f]->triangles.size(); ++t) {
+          const std::array<std::uint32_t, 3>& corners = faces[f]->triangles[t];
+          // Derivatives are by the parameters of the quad in which the triangle lies.
+          std::array<FaceDomain::Point, 3> at;
+          for (std::size_t k = 0; k < 3; ++k) at[k] = faces[f]->vertices[corners[k]].at;
+          domain(f).share_part(at, std::int64_t{1} << depth[f]);
+          for (std::size_t k = 0; k < 3; ++k, written += components) {
+            const std::uint32_t v = corners[k];
+            put(values[f][v], to + written);
+            std::array<Vec3, 2> slope = slopes[f][v];
+            if (at[k].part != faces[f]->vertices[v].at.part) {
+              const auto there = evaluate(f, at[k]);
+              slope = {there.d1, there.d2};
+            }
+            put(slope[0], derivatives + 2 * written);
+            put(slope[1], derivatives + 2 * written + components);
           }
+        }
     }
   }
 

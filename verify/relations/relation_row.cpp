@@ -73,7 +73,8 @@ bool same_arrays(const Tessellation& a, const Tessellation& b) {
   return same(a.positions_f32(), b.positions_f32()) && same(a.positions_f64(), b.positions_f64()) &&
          same(a.normals_f32(), b.normals_f32()) && same(a.normals_f64(), b.normals_f64()) &&
          same(a.provenance(), b.provenance()) && same(a.corners(), b.corners()) &&
-         same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face());
+         same(a.triangles(), b.triangles()) && same(a.triangle_face(), b.triangle_face()) &&
+         different_channels(a, b) == 0;
 }
 
 // Counts the vertices at shared points whose bits are not those of the first one there: of positions at the point, of
@@ -95,6 +96,33 @@ class SharedPointBits {
 };
 
 }  // namespace
+
+std::int64_t different_channels(const Tessellation& a, const Tessellation& b) {
+  const auto corners = [](const Tessellation& t) {
+    std::vector<std::uint64_t> all;
+    for (std::int64_t k = 0; t.channel_count() > 0 && k < t.triangle_count(); ++k)
+      for (int corner = 0; corner < 3 && t.triangle_ok(k); ++corner) {
+        const Vector position = t.position(t.triangles()[k][static_cast<std::size_t>(corner)]);
+        std::uint64_t bits = digest(position, nullptr) ^ static_cast<std::uint64_t>(t.triangle_face()[k]);
+        const auto add = [&](double x) {
+          bits = data::SplitMix64(bits ^ std::bit_cast<std::uint64_t>(x)).next();
+        };
+        for (std::size_t c = 0; c < t.channel_count(); ++c)
+          for (int component = 0; component < t.components(c); ++component) {
+            add(t.channel_value(c, k, corner, component));
+            for (int by = 0; t.has_channel_derivatives() && by < 2; ++by)
+              add(t.channel_derivative(c, k, corner, component, by));
+          }
+        all.push_back(bits);
+      }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto mine = corners(a), other = corners(b);
+  std::vector<std::uint64_t> lost;
+  std::set_difference(mine.begin(), mine.end(), other.begin(), other.end(), std::back_inserter(lost));
+  return static_cast<std::int64_t>(lost.size());
+}
 
 Compared::Compared(const Evidence& e)
     : e_(e),
@@ -210,6 +238,10 @@ Comparison Compared::bits_with(const Tessellation& t, const char* where) const {
     c.bad += 1;
     c.message = fmt::format("{} vertices and {} triangles, but {} and {} {}", t.vertex_count(),
                             t.triangle_count(), mine.vertex_count(), mine.triangle_count(), where);
+  }
+  if (const std::int64_t corners = different_channels(mine, t); corners > 0) {
+    c.bad += corners;
+    c.message = fmt::format("channels have other bits at {} corners of triangles", corners);
   }
   c.bad = std::max(c.bad, c.other_bits);
   c.worst = static_cast<double>(c.bad);

@@ -28,6 +28,10 @@ struct Comparison {
   std::string message;
 };
 
+/// How many corners of triangles of the one have channels, values or derivatives, of which the other has not the bits at
+/// a triangle of that face with a corner there.
+std::int64_t different_channels(const Tessellation& a, const Tessellation& b);
+
 /// Compares with the tessellation of the evidence, which outlives this.
 class Compared {
  public:

@@ -60,7 +60,7 @@ class Relations {
     const std::string what = fmt::format("at depth {} with 1 thread and with 4", depth);
     row.ask(what, e_.mesh, [&](Session& session) {
       const Tessellation a = session.tessellate(depth, 1), b = session.tessellate(depth, 4);
-      const auto bad = different_points(a, b);
+      const auto bad = different_points(a, b) + different_channels(a, b);
       row.count(bad, a.vertex_count());
       if (bad > 0) row.note(Status::kFinding, fmt::format("{}: {} points have other bits", what, bad));
     });

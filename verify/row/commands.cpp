@@ -82,9 +82,12 @@ std::string depths_in_full(const Report& report, const std::string& subject) {
 std::string eval_command(const Result& result) {
   static const std::set<std::string_view> kOfLimit{"positions",      "normals",       "finite",
                                                    "file-positions", "file-distance", "file-normals"};
-  if (!names_a_point(result) || !kOfLimit.contains(result.check)) return "";
-  return fmt::format("limitcheck eval {} {} {} {}{}{}{}", shell_word(result.mesh), result.witness->where(),
-                     result.witness->l1, result.witness->l2, mesh_options(result),
+  if (!names_a_point(result)) return "";
+  const std::string& channel = result.witness->channel;
+  if (channel.empty() && !kOfLimit.contains(result.check)) return "";
+  return fmt::format("limitcheck eval {} {} {} {}{}{}{}{}", shell_word(result.mesh), result.witness->where(),
+                     result.witness->l1, result.witness->l2,
+                     channel.empty() ? "" : " --channel " + shell_word(channel), mesh_options(result),
                      result.precision == LC_FLOAT32 ? " --precision float" : "",
                      result.weights == reference::Weights::kWarren ? " --weights warren" : "");
 }

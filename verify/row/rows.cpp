@@ -148,6 +148,11 @@ const std::vector<RowKind>& row_kinds() {
        "triangle lies.",
        "As of positions, with the size of the channel.",
        "Stam's evaluator in double on the mesh that is cut along the seams"},
+      {"channel-derivatives", "channels", kOther,
+       "Only where the subject delivers them: the derivatives of channels by the parameters of the control face, "
+       "at each corner of each triangle on its side of a seam, where the limit has any.",
+       "2^(steps + 2) times that of channel-positions.",
+       "a difference of points 2^-steps apart (verify/row/bounds.h); as for channel-positions, and certified"},
       {"channel-shared", "channels", kOther,
        "A point on one side of a seam has the same bits in all triangles that have it.", kNone,
        "the bytes delivered"},

@@ -112,16 +112,15 @@ Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, st
 /// All rules of channels.
 inline constexpr std::int32_t kAllChannelRules = (2 << LC_CHANNEL_ALL) - 1;
 
-/// Allocates the values of the mesh's channels, whose triangles are announced: see lc_tessellation.
+/// Allocates the values of the mesh's channels, or their derivatives, whose triangles are announced: see lc_tessellation.
 template <class Real>
-Real* allocate_channels(const lc_request& request, const lc_mesh& mesh, lc_tessellation& out) {
-  std::size_t components = 0;
-  for (std::int64_t c = 0; c < mesh.channel_count; ++c)
-    components += static_cast<std::size_t>(mesh.channels[c].components);
-  out.channel_values = request.allocate(
-      request.host, 3 * static_cast<std::size_t>(out.triangle_count) * components * sizeof(Real));
-  if (out.channel_values == nullptr) throw std::bad_alloc();
-  return static_cast<Real*>(out.channel_values);
+Real* allocate_channels(const lc_request& request, const lc_mesh& mesh, lc_tessellation& out,
+                        void* lc_tessellation::*array = &lc_tessellation::channel_values) {
+  std::size_t numbers = array == &lc_tessellation::channel_values ? 3 : 6;
+  numbers *= static_cast<std::size_t>(out.triangle_count) * components_of_channels(mesh);
+  out.*array = request.allocate(request.host, numbers * sizeof(Real));
+  if (out.*array == nullptr) throw std::bad_alloc();
+  return static_cast<Real*>(out.*array);
 }
 
 /// A tessellation whose sizes are known only when it is done: in double, which holds a float exactly.

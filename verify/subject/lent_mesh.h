@@ -21,6 +21,13 @@ constexpr lc_scheme scheme_of(data::Scheme scheme) {
 constexpr data::Scheme scheme_of(lc_scheme scheme) {
   return scheme == LC_SCHEME_LOOP ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
 }
+/// Of all channels together.
+inline std::size_t components_of_channels(const lc_mesh& mesh) {
+  std::size_t components = 0;
+  for (std::int64_t c = 0; c < mesh.channel_count; ++c)
+    components += static_cast<std::size_t>(mesh.channels[c].components);
+  return components;
+}
 /// The schemes that capabilities declare.
 constexpr bool does(const lc_capabilities& c, data::Scheme scheme) {
   const std::int32_t schemes = c.schemes == 0 ? std::int32_t{LC_DOES_LOOP} : c.schemes;

@@ -160,6 +160,7 @@ typedef struct lc_capabilities {
   /* The rules by which it interpolates face-varying channels, 1 << lc_channel_rule each, or-ed. It is handed only
    * channels that have one of these; 0: none. */
   int32_t channel_rules;
+  int32_t channel_derivatives; /* 1: delivers the derivatives of channels with their values */
 } lc_capabilities;
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or
@@ -240,6 +241,13 @@ typedef struct lc_tessellation {
       channel_values; /* of each channel of the mesh, one after the other: for each corner of each triangle its
                            components, on the side of a seam on which the triangle lies. Floats or doubles, by
                            capabilities.precision. NULL if the mesh has no channels */
+  void*
+      channel_derivatives; /* in the same order and precision: at each corner of each triangle its components'
+                                derivatives by u, then those by v (l1 and l2 of Loop's), towards the triangle. They
+                                are by the parameters of the control face, of one that is no quad by those of the
+                                quad in which the triangle lies, or that the vertex names if it lies in none. What
+                                stands where the limit has no derivatives is not looked at. NULL if the
+                                capabilities promise none, or the mesh has no channels */
 } lc_tessellation;
 
 /* The table of functions that a subject consists of. */

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "data/error.h"
 #include "data/io/gltf.h"
 #include "reference/surface/channel.h"
-#include "verify/evidence/channel_rule.h"
+#include "verify/evidence/other_channel.h"
 #include "verify/files/checks/file_evidence.h"
 #include "verify/row/statistics.h"
 
@@ -61,14 +59,14 @@ std::vector<TexturedCorner> textured_corners(const FileEvidence& e, bool flipped
   return corners;
 }
 
-// The errors of the corners by a rule, in diagonals of the channel; nothing where the rule has no exact cut.
+// The errors of the corners by a channel and a rule, in diagonals.
 struct Judged {
   std::vector<double> error;
   std::vector<Uv> expected;
   std::int64_t good = 0;
 };
-std::optional<Judged> judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
-                             const data::Channel& channel, ChannelRule rule, double diagonal) try {
+Judged judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
+              const data::Channel& channel, ChannelRule rule, double diagonal) {
   const reference::ChannelSurface surface(e.control, channel, rule, e.scheme());
   Judged result{std::vector<double>(corners.size()), std::vector<Uv>(corners.size())};
   tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t k) {
@@ -85,8 +83,6 @@ std::optional<Judged> judged(const FileEvidence& e, const std::vector<TexturedCo
   result.good =
       std::count_if(result.error.begin(), result.error.end(), [&](double x) { return x <= e.tolerance; });
   return result;
-} catch (const data::ArgumentError&) {
-  return std::nullopt;
 }
 
 }  // namespace
@@ -109,32 +105,26 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
   const bool flipped = data::io::is_gltf(e.tessellation.name) != data::io::is_gltf(e.control_name);
   std::int64_t without = 0;
   const std::vector<TexturedCorner> corners = textured_corners(e, flipped, without);
-  const std::optional<Judged> found = judged(e, corners, *channel, rule, diagonal);
-  if (!found) {
-    r.status = Status::kNotSupported;
-    r.message =
-        "by Chaikin's creasing a semi-sharp edge ends on a seam: only `limitcheck eval --channel` judges "
-        "that";
-    return {r};
-  }
-  const Statistics s = summarise(found->error, e.tolerance);
+  const Judged found = judged(e, corners, *channel, rule, diagonal);
+  const Statistics s = summarise(found.error, e.tolerance);
   take(r, s);
-  r.decades = decades(found->error);
+  r.decades = decades(found.error);
   if (s.worst_at >= 0) {
     const auto at = static_cast<std::size_t>(s.worst_at);
     r.witness = e.at_vertex(corners[at].vertex);
     r.witness->face = corners[at].at.face;
     r.witness->corner = corners[at].at.corner;
+    r.witness->channel = channel->name;
     r.witness->l1 = fmt::format("{}", corners[at].at.first);
     r.witness->l2 = fmt::format("{}", corners[at].at.second);
-    r.witness->expected = {found->expected[at].begin(), found->expected[at].end()};
+    r.witness->expected = {found.expected[at].begin(), found.expected[at].end()};
     r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
   }
   if (s.bad > 0)
-    say(r, other_rules(rule, corners.size(), [&](ChannelRule other) -> std::optional<std::int64_t> {
-          const auto by_other = judged(e, corners, *channel, other, diagonal);
-          return by_other ? std::optional(by_other->good) : std::nullopt;
-        }));
+    say(r, other_channels(e.control, *channel, corners.size(),
+                          [&](const data::Channel& other, ChannelRule by_rule) {
+                            return judged(e, corners, other, by_rule, diagonal).good;
+                          }));
   if (without > 0) {
     r.status = Status::kFinding;
     r.bad += without, r.of += without;

@@ -97,13 +97,18 @@ void read_rows(Source& source, const lc_mesh& mesh, const lc_tessellation& out) 
     if (out.triangle_face != nullptr) out.triangle_face[t] = row.next<std::int32_t>();
     row.finish();
   }
-  auto* value = static_cast<Real*>(out.channel_values);
-  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
-    for (std::int64_t corner = 0; corner < 3 * out.triangle_count; ++corner) {
-      Row row(source, "channel value", corner);
-      for (std::int32_t k = 0; k < c.components; ++k) *value++ = row.next<Real>();
-      row.finish();
-    }
+  const auto read_channels = [&](void* array, const char* what, std::int32_t numbers) {
+    auto* value = static_cast<Real*>(array);
+    if (value == nullptr) return;
+    for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
+      for (std::int64_t corner = 0; corner < 3 * out.triangle_count; ++corner) {
+        Row row(source, what, corner);
+        for (std::int32_t k = 0; k < numbers * c.components; ++k) *value++ = row.next<Real>();
+        row.finish();
+      }
+  };
+  read_channels(out.channel_values, "channel value", 1);
+  read_channels(out.channel_derivatives, "channel derivative", 2);
 }
 
 std::int32_t schemes_of(const Header& header) {
@@ -228,6 +233,8 @@ Capabilities read_capabilities(Source& source) {
   if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
   if (header.has("provenance")) c.no_provenance = header.flag("provenance") ? 0 : 1;
   if (version > 1 && header.has("channels")) c.channel_rules = header.bits("channels", kChannelRules);
+  if (version > 1 && header.has("channel_derivatives"))
+    c.channel_derivatives = header.flag("channel_derivatives");
   if (header.has("options")) result.options = header.text("options");
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
@@ -254,13 +261,12 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   // A count is checked before memory is allocated for it.
   const std::size_t point = 3 * real_size(capabilities);
   const bool normals = capabilities.values.normals != 0;
-  std::size_t components = 0;  // of all channels
-  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
-    components += static_cast<std::size_t>(c.components);
+  const std::size_t values = 3 * components_of_channels(mesh) * real_size(capabilities);
+  const std::size_t derivatives = capabilities.values.channel_derivatives != 0 ? 2 * values : 0;
   const double bytes =
       static_cast<double>(vertices) *
           static_cast<double>(point * (normals ? 2 : 1) + sizeof(lc_provenance) + sizeof(std::int32_t)) +
-      static_cast<double>(triangles) * (16.0 + static_cast<double>(3 * components * real_size(capabilities)));
+      static_cast<double>(triangles) * (16.0 + static_cast<double>(values + derivatives));
   if (bytes > static_cast<double>(most_bytes))
     throw Error(fmt::format("it announces {} vertices and {} triangles, {:.3g} MiB; {} MiB are allowed",
                             vertices, triangles, bytes / 1048576, most_bytes >> 20));
@@ -281,7 +287,8 @@ void read_tessellation(Source& source, const Capabilities& capabilities, std::ui
   if (places && capabilities.version > 1) allocate(out.corner, vertices, sizeof(std::int32_t));
   allocate(out.triangles, triangles, 3 * sizeof(std::uint32_t));
   if (places) allocate(out.triangle_face, triangles, sizeof(std::int32_t));
-  if (components > 0) allocate(out.channel_values, triangles, 3 * components * real_size(capabilities));
+  if (values > 0) allocate(out.channel_values, triangles, values);
+  if (derivatives > 0) allocate(out.channel_derivatives, triangles, derivatives);
 
   if (capabilities.payload == Payload::kBinary)
     for (const auto& array : arrays) source.read(array);

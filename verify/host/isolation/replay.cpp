@@ -78,6 +78,7 @@ bool read_replay(Source& source, std::uint64_t most_bytes, const lc_mesh& mesh, 
   out.triangle_face = static_cast<std::int32_t*>(place("triangle_face"));
   out.corner = static_cast<std::int32_t*>(place("corner"));
   out.channel_values = place("channel_values");
+  out.channel_derivatives = place("channel_derivatives");
 
   // The copy that the session lent to the subject: to be written to, as the subject did.
   if (header.flag("mesh_changed"))

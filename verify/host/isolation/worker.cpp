@@ -109,6 +109,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"does_not_validate", c.does_not_validate != 0},
           {"provenance", c.no_provenance == 0},
           {"channels", protocol::names_of(c.channel_rules, protocol::kChannelRules)},
+          {"channel_derivatives", c.channel_derivatives != 0},
           {"options", subject.options != nullptr ? subject.options : ""}};
 }
 
@@ -156,6 +157,7 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
               {"triangle_face", place(memory, delivered.triangle_face)},
               {"corner", place(memory, delivered.corner)},
               {"channel_values", place(memory, delivered.channel_values)},
+              {"channel_derivatives", place(memory, delivered.channel_derivatives)},
               {"mesh_changed", mesh_changed},
               {"release_threw", release_threw}});
   host.write(std::as_bytes(std::span(blocks)));

@@ -66,10 +66,24 @@ TEST(Channels, OfObjHaveTheRuleOfTheTag) {
 TEST(Channels, AreWrittenAndReadAgain) {
   ControlMesh mesh = read(kPositions + kTexture + kFaces + "t facevaryinginterpolateboundary 1/0/0 4\n").mesh;
   EXPECT_EQ(read_mesh(mesh_content(mesh, FileFormat::kObj), FileFormat::kObj, "again.obj"), mesh);
+  EXPECT_EQ(left_out(mesh, FileFormat::kObj), "");
   ControlMesh bare = mesh;
   bare.channels.clear();
-  for (const FileFormat format : {FileFormat::kPly, FileFormat::kOff})  // these leave them out
-    EXPECT_EQ(read_mesh(mesh_content(mesh, format), format, "again"), bare);
+  EXPECT_EQ(read_mesh(mesh_content(mesh, FileFormat::kOff), FileFormat::kOff, "again"), bare);
+  EXPECT_EQ(left_out(mesh, FileFormat::kOff), "the channel uv");
+  // PLY has the values of corners, and no rule.
+  EXPECT_EQ(left_out(mesh, FileFormat::kPly), "the rule of the channel uv");
+  for (const bool ascii : {true, false}) {
+    const ControlMesh again =
+        read_mesh(mesh_content(mesh, FileFormat::kPly, {.ascii_ply = ascii}), FileFormat::kPly, "again");
+    const Channel& uv = channel_of(again, "uv");
+    EXPECT_EQ(uv.rule, std::nullopt);
+    ASSERT_EQ(uv.corners.size(), mesh.channels[0].corners.size());
+    for (std::size_t c = 0; c < uv.corners.size(); ++c)
+      for (const int k : {0, 1}) EXPECT_EQ(uv.at(c, k), mesh.channels[0].at(c, k));
+  }
+  mesh.channels.push_back({"colour", 4, {0, 0, 0, 1}, std::vector<std::int32_t>(8, 0)});
+  EXPECT_EQ(left_out(mesh, FileFormat::kObj), "the channel colour");
 }
 
 TEST(Channels, FollowTheCornersOfPolygonsThatAreCut) {

@@ -126,4 +126,18 @@ ControlMesh with_random_channel(ControlMesh mesh, std::uint64_t seed) {
   return mesh;
 }
 
+ControlMesh with_random_channels(ControlMesh mesh, std::uint64_t seed) {
+  Channel colour = with_random_channel(mesh, seed + 1).channels.front();
+  SplitMix64 random(seed + 2);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < colour.values.size(); i += 2) {
+    values.insert(values.end(), {colour.values[i], colour.values[i + 1]});
+    for (int k = 0; k < 2; ++k) values.push_back(static_cast<double>(random.next() % 256) / 64);
+  }
+  colour.name = "colour", colour.components = 4, colour.values = std::move(values);
+  mesh = with_random_channel(std::move(mesh), seed);
+  mesh.channels.push_back(std::move(colour));
+  return mesh;
+}
+
 }  // namespace limitcheck::data

@@ -265,6 +265,10 @@ const std::vector<Operation>& operations() {
        "a mesh with texture coordinates in charts drawn by chance, and a rule for them", kMostOfAll,
        [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
          return with_random_channel(std::move(mesh), seed);
+       }},
+      {"uvs:", "uvs:SEED:NAME...", "the same, and a channel \"colour\" of four components", kMostOfAll,
+       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
+         return with_random_channels(std::move(mesh), seed);
        }}};
   return all;
 }

@@ -32,13 +32,20 @@ void append_tags(std::string& text, const Sharpness& sharpness) {
   if (sharpness.triangles == TriangleRule::kSmooth) text += "t smoothtriangles 0/0/1 smooth\n";
 }
 
+// The one channel that a format has a place for, of up to so many components.
+const Channel* texture_of(const ControlMesh& mesh, FileFormat format) {
+  const int most = format == FileFormat::kObj ? 3 : format == FileFormat::kPly ? 2 : 0;
+  const int least = format == FileFormat::kPly ? 2 : 1;
+  const auto found = std::find_if(mesh.channels.begin(), mesh.channels.end(), [&](const Channel& c) {
+    return c.name == "uv" && c.components >= least && c.components <= most;
+  });
+  return found == mesh.channels.end() ? nullptr : &*found;
+}
+
 void append_obj(std::string& text, const ControlMesh& mesh) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p[0], p[1], p[2]);
-  // The format has a place for one channel, of up to three components.
-  const auto found = std::find_if(mesh.channels.begin(), mesh.channels.end(),
-                                  [](const Channel& c) { return c.name == "uv" && c.components <= 3; });
-  const Channel* const uv = found == mesh.channels.end() ? nullptr : &*found;
+  const Channel* const uv = texture_of(mesh, FileFormat::kObj);
   if (uv)
     for (std::size_t i = 0; i < uv->values.size(); i += static_cast<std::size_t>(uv->components))
       fmt::format_to(
@@ -72,13 +79,17 @@ void require_only(const char* format, const ControlMesh& mesh, bool edges) {
 }
 
 // The body of OFF and of ascii PLY.
-void append_lines(std::string& text, const ControlMesh& mesh) {
+void append_lines(std::string& text, const ControlMesh& mesh, const Channel* uv = nullptr) {
   for (const auto& p : mesh.positions)
     fmt::format_to(std::back_inserter(text), "{} {} {}\n", p[0], p[1], p[2]);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto corners = mesh.faces[f];
     fmt::format_to(std::back_inserter(text), "{}", corners.size());
     for (const std::int32_t v : corners) fmt::format_to(std::back_inserter(text), " {}", v);
+    if (uv != nullptr) fmt::format_to(std::back_inserter(text), " {}", 2 * corners.size());
+    for (std::size_t k = 0; uv != nullptr && k < 2 * corners.size(); ++k)
+      fmt::format_to(std::back_inserter(text), " {}",
+                     uv->at(mesh.faces.first_corner(f) + k / 2, static_cast<int>(k % 2)));
     text += '\n';
   }
 }
@@ -91,12 +102,14 @@ void append_little_endian(std::string& bytes, Integer bits) {
 void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
   std::size_t most = 0;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) most = std::max(most, mesh.faces[f].size());
-  const bool small = most < 256;
+  const Channel* const uv = texture_of(mesh, FileFormat::kPly);
+  const bool small = most < (uv == nullptr ? 256 : 128);
   text += fmt::format(
       "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
       "element face {}\nproperty list {} int vertex_indices\n",
       ascii ? "ascii" : "binary_little_endian", mesh.positions.size(), mesh.faces.size(),
       small ? "uchar" : "uint");
+  if (uv != nullptr) text += fmt::format("property list {} double texcoord\n", small ? "uchar" : "uint");
   const auto& edges = mesh.sharpness.edges;
   if (!edges.empty())
     text +=
@@ -104,7 +117,7 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
                     edges.size());
   text += "end_header\n";
   if (ascii) {
-    append_lines(text, mesh);
+    append_lines(text, mesh, uv);
     for (const SharpEdge& e : edges)
       fmt::format_to(std::back_inserter(text), "{} {} {}\n", e.a, e.b, finite(e.sharpness));
     return;
@@ -114,11 +127,18 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto corners = mesh.faces[f];
-    if (small)
-      text += static_cast<char>(corners.size());
-    else
-      append_little_endian(text, static_cast<std::uint32_t>(corners.size()));
+    const auto put_count = [&](std::size_t count) {
+      if (small)
+        text += static_cast<char>(count);
+      else
+        append_little_endian(text, static_cast<std::uint32_t>(count));
+    };
+    put_count(corners.size());
     for (const std::int32_t v : corners) append_little_endian(text, static_cast<std::uint32_t>(v));
+    if (uv != nullptr) put_count(2 * corners.size());
+    for (std::size_t k = 0; uv != nullptr && k < 2 * corners.size(); ++k)
+      append_little_endian(text, std::bit_cast<std::uint64_t>(
+                                     uv->at(mesh.faces.first_corner(f) + k / 2, static_cast<int>(k % 2))));
   }
   for (const SharpEdge& e : edges) {
     for (const std::int32_t v : {e.a, e.b}) append_little_endian(text, static_cast<std::uint32_t>(v));
@@ -127,6 +147,18 @@ void append_ply(std::string& text, const ControlMesh& mesh, bool ascii) {
 }
 
 }  // namespace
+
+std::string left_out(const ControlMesh& mesh, FileFormat format) {
+  std::string lost;
+  const auto say = [&](const std::string& what) { lost += (lost.empty() ? "" : ", ") + what; };
+  const Channel* const uv = texture_of(mesh, format);
+  for (const Channel& c : mesh.channels)
+    if (&c != uv)
+      say("the channel " + c.name);
+    else if (c.rule && format != FileFormat::kObj)
+      say("the rule of the channel " + c.name);
+  return lost;
+}
 
 std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options) {
   std::string text;

@@ -20,10 +20,14 @@ struct WriteOptions {
 /// whole or not at all: it is written under a temporary name beside the final one and renamed. A file that is
 /// not regular (a pipe, /dev/stdout) is written to directly.
 ///   sharpness  OBJ has all of it, as OpenSubdiv's tags; PLY sharp edges, as elements; infinity becomes 10
-///   channels   OBJ has the one that is called uv, as texture coordinates; all others are left out
+///   channels   OBJ has the one that is called uv, as texture coordinates; PLY too if it has two components, by value and
+///              without its rule; all else is left_out()
 ///   throws     InputError: FILE_UNKNOWN_FORMAT, FILE_UNSUPPORTED (STL, and a sharpness that the format has
 ///              no place for), FILE_CANNOT_WRITE (with the system's reason)
 void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options = {});
+
+/// Which channels, and rules of channels, a format has no place for: "the channel colour"; empty: none.
+std::string left_out(const ControlMesh& mesh, FileFormat format);
 
 /// What write_mesh writes into the file.
 std::string mesh_content(const ControlMesh& mesh, FileFormat format, const WriteOptions& options = {});

@@ -52,7 +52,7 @@ struct Corners {
 
   std::vector<Corner> all{};
   std::vector<Place> places{};
-  std::vector<Lattice::Id> ids{};      // of each place
+  std::vector<Lattice::Id> ids{};     // of each place
   std::vector<std::int64_t> terms{};  // of the longest sum there
 };
 
@@ -89,7 +89,8 @@ class Part {
         values_(e.mesh.channels[channel].some(first, count_)) {
     for (int k = 0; k < count_; ++k) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (auto i = static_cast<std::size_t>(k); i < values_.values.size(); i += static_cast<std::size_t>(count_)) {
+      for (auto i = static_cast<std::size_t>(k); i < values_.values.size();
+           i += static_cast<std::size_t>(count_)) {
         low = std::min(low, values_.values[i]);
         high = std::max(high, values_.values[i]);
       }
@@ -99,7 +100,6 @@ class Part {
     diagonal_ = unit_of_length(diagonal_, magnitude_);
   }
 
-  const std::string& name() const { return values_.name; }
   const data::Channel& channel() const { return values_; }
   data::ChannelRule rule() const { return values_.rule.value_or(data::kUsualChannelRule); }
 
@@ -131,13 +131,14 @@ class Part {
     std::vector<Point> all;
     all.reserve(places.size());
     for (const Place& p : places)
-      all.push_back(point_of(surface.evaluate(p.face, p.corner, double(p.i) / p.denominator,
-                                              double(p.j) / p.denominator)));
+      all.push_back(point_of(
+          surface.evaluate(p.face, p.corner, double(p.i) / p.denominator, double(p.j) / p.denominator)));
     return all;
   }
   Point certified(const Place& p) const {
     if (!certified_)
-      certified_ = std::make_unique<reference::ChannelEvaluator>(e_.mesh, values_, rule(), e_.lattice.scheme());
+      certified_ =
+          std::make_unique<reference::ChannelEvaluator>(e_.mesh, values_, rule(), e_.lattice.scheme());
     const auto parameter = [&](std::uint32_t n) {
       return reference::Parameter::parse(fraction(n, p.denominator));
     };
@@ -152,7 +153,8 @@ class Part {
     const auto& [by_u, by_v] = got.derivative;
     if (!got.has_derivatives || !expected.has_derivatives) return -1;
     if (!is_finite(by_u) || !is_finite(by_v)) return std::numeric_limits<double>::infinity();
-    return std::hypot(distance(by_u, expected.derivative[0]), distance(by_v, expected.derivative[1])) / diagonal_;
+    return std::hypot(distance(by_u, expected.derivative[0]), distance(by_v, expected.derivative[1])) /
+           diagonal_;
   }
   // Of the components that there are.
   std::vector<double> shown(const Values& values) const { return {values.begin(), values.begin() + count_}; }
@@ -200,10 +202,12 @@ class ChannelRow {
       const double off = (part.*error_)(part.got(corner_of(k)), part.certified(place_of(k)));
       return off < 0 ? off : off * unit_of(part);
     });
-    const std::int64_t at = judge(errors_, bound, *row_.bound, confirmation.worst, "at vertices of high valence", row_);
+    const std::int64_t at =
+        judge(errors_, bound, *row_.bound, confirmation.worst, "at vertices of high valence", row_);
     row_.decades = decades(errors_);
-    count_places(row_, e_.lattice, errors_.size(), [&](std::size_t k) { return corners_.ids[corner_of(k).at]; },
-                 [&](std::size_t k) { return errors_[k] < 0 ? -1 : static_cast<int>(!(errors_[k] <= bound(k))); });
+    count_places(
+        row_, e_.lattice, errors_.size(), [&](std::size_t k) { return corners_.ids[corner_of(k).at]; },
+        [&](std::size_t k) { return errors_[k] < 0 ? -1 : static_cast<int>(!(errors_[k] <= bound(k))); });
     say(row_, confirmation.message);
     if (at >= 0) show(static_cast<std::size_t>(at));
     return row_;
@@ -225,9 +229,10 @@ class ChannelRow {
     Witness& w = row_.witness.emplace(e_.at(place_of(k)));
     w.vertex = e_.tessellation.triangles()[c.triangle][static_cast<std::size_t>(c.k)];
     w.triangle = c.triangle;
-    w.channel = part.name();
-    const Point got = part.got(c), is = is_bad(row_) ? part.certified(place_of(k))
-                                                     : part.expected({place_of(k)}, part.channel(), part.rule())[0];
+    name_channel(w, part.channel());
+    const Point got = part.got(c), is = is_bad(row_)
+                                            ? part.certified(place_of(k))
+                                            : part.expected({place_of(k)}, part.channel(), part.rule())[0];
     const auto put = [&](std::vector<double>& to, const Point& p) {
       if (bound_ == &Part::bound) return void(to = part.shown(p.value));
       for (const Values& d : p.derivative)
@@ -269,7 +274,7 @@ void check_shared_values(const Evidence& e, const Corners& corners, std::size_t 
       continue;
     row.witness = e.at(corners.places[c.at]);
     row.witness->vertex = e.tessellation.triangles()[c.triangle][static_cast<std::size_t>(c.k)];
-    row.witness->channel = e.mesh.channels[channel].name;
+    name_channel(*row.witness, e.mesh.channels[channel]);
   }
   row.of += static_cast<std::int64_t>(several.size());
   row.bad += static_cast<std::int64_t>(different.size());
@@ -301,8 +306,8 @@ std::vector<Result> check_channels(const Evidence& e) {
     for (int first = 0; first < e.mesh.channels[c].components; first += 3) parts.emplace_back(e, c, first);
   ChannelRow of_values(e, corners, parts, "channel-positions", "diagonal of the channel", &Part::bound,
                        &Part::error),
-      of_derivatives(e, corners, parts, "channel-derivatives", "diagonal of the channel", &Part::derivative_bound,
-                     &Part::derivative_error);
+      of_derivatives(e, corners, parts, "channel-derivatives", "diagonal of the channel",
+                     &Part::derivative_bound, &Part::derivative_error);
   const bool differentiates = e.tessellation.has_channel_derivatives();
   std::string said;
   std::int64_t without = 0, not_finite = 0;
@@ -313,15 +318,15 @@ std::vector<Result> check_channels(const Evidence& e) {
       without += !expected[c.at].has_derivatives;
     }
     if (of_values.add(expected) > 0 && said.empty())
-      said = other_channels(
-          e.mesh, part.channel(), corners.all.size(),
-          [&](const data::Channel& other, data::ChannelRule by_rule) {
-            const std::vector<Point> by_other = part.expected(corners.places, other, by_rule);
-            return std::count_if(corners.all.begin(), corners.all.end(), [&](const Corner& c) {
-              const double off = part.error(part.got(c), by_other[c.at]);
-              return off >= 0 && off <= part.bound();
-            });
-          });
+      said =
+          other_channels(e.mesh, part.channel(), corners.all.size(),
+                         [&](const data::Channel& other, data::ChannelRule by_rule) {
+                           const std::vector<Point> by_other = part.expected(corners.places, other, by_rule);
+                           return std::count_if(corners.all.begin(), corners.all.end(), [&](const Corner& c) {
+                             const double off = part.error(part.got(c), by_other[c.at]);
+                             return off >= 0 && off <= part.bound();
+                           });
+                         });
     if (differentiates) of_derivatives.add(expected);
   }
   positions = of_values.result();

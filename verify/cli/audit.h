@@ -183,6 +183,7 @@ struct FilesArguments {
   std::string control, provenance, per_vertex;
   std::vector<std::string> tessellations;  // files, and folders of them
   verify::FilesOptions options;
+  std::optional<data::ChannelRule> channel_rule;
 };
 /// Adds the options to the audit command, in a group of their own.
 void add_files_options(CLI::App& audit, FilesArguments& files);

@@ -46,6 +46,9 @@ std::string options_of(const FilesArguments& files) {
   if (o.hausdorff) text += fmt::format(" --max-deviation {}", *o.hausdorff);
   if (!o.measures_hausdorff) text += " --no-hausdorff";
   if (o.needs_normals) text += " --normals";
+  if (files.channel_rule)
+    text +=
+        fmt::format(" --channel-rule {}", data::kChannelRules[static_cast<std::size_t>(*files.channel_rule)]);
   return text;
 }
 
@@ -99,6 +102,7 @@ void add_files_options(CLI::App& audit, FilesArguments& files) {
                        "CSV that says where each vertex lies: vertex,face,l1,l2 or "
                        "vertex,face,i,j,denominator; without it the closest point of the surface is found. "
                        "Of Catmull-Clark's scheme u and v, and of a face that is no quad a column corner"));
+  option(add_channel_rule(audit, files.channel_rule));
   using verify::Fit;
   option(add_words(audit, "--fit", options.fit, {{"scale", Fit::kScale}, {"similarity", Fit::kSimilarity}},
                    "Undo a scale and an offset first (scale), or also a rotation (similarity)"))
@@ -132,7 +136,9 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}, {"--html", a.output.html}},
                           a.output);
   const auto start = std::chrono::steady_clock::now();
-  const OpenedMesh opened = open_control_mesh(files.control, a.mesh);
+  OpenedMesh opened = open_control_mesh(files.control, a.mesh);
+  for (data::Channel& channel : opened.mesh.channels)
+    if (files.channel_rule) channel.rule = files.channel_rule;
   const data::ControlMesh& control = opened.mesh;
   verify::require_range(files.control, control, true);
   const std::string cut = opened.chosen.cut > 0 ? word(a.mesh.polygons) : "";

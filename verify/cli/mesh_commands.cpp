@@ -14,6 +14,7 @@
 #include "data/io/gltf.h"
 #include "data/io/polygon_soup.h"
 #include "data/io/text_scanner.h"
+#include "data/io/whole_content.h"
 #include "data/io/write.h"
 #include "data/summary.h"
 #include "verify/cli/commands.h"
@@ -51,6 +52,8 @@ int generate(const GenerateArguments& a) {
   data::write_mesh(a.file, mesh, {.ascii_ply = a.ascii});
   say(stderr, "{}\n", scheme_line({chosen}, a.mesh));
   say(stderr, "{}: {} vertices, {} faces\n", a.file, mesh.positions.size(), mesh.faces.size());
+  if (const std::string lost = data::left_out(mesh, data::io::format_of(a.file)); !lost.empty())
+    say(stderr, "note: the file has no place for {}\n", lost);
   return kHeld;
 }
 

@@ -59,6 +59,16 @@ void add_mesh_options(CLI::App& command, data::ReadOptions& options) {
             "along the shorter diagonal. The surface is another one than that of the faces");
 }
 
+CLI::Option* add_channel_rule(CLI::App& command, std::optional<data::ChannelRule>& rule) {
+  Words<std::optional<data::ChannelRule>> rules;
+  for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k)
+    rules.push_back({std::string(data::kChannelRules[k]), static_cast<data::ChannelRule>(k)});
+  return add_words(
+      command, "--channel-rule", rule, rules,
+      "How a channel goes over seams and boundary, as USD's faceVaryingLinearInterpolation and "
+      "OpenSubdiv's FVarLinearInterpolation; by default as the file says, or else corners-plus1");
+}
+
 std::string word(data::Triangulation polygons) {
   return word_of(kTriangulations, polygons);
 }

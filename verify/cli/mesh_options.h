@@ -19,6 +19,8 @@ namespace limitcheck::cli {
 CLI::Option* add_scheme(CLI::App& command, std::optional<data::Scheme>& scheme, const std::string& text);
 /// --scheme and --triangulate.
 void add_mesh_options(CLI::App& command, data::ReadOptions& options);
+/// --channel-rule, empty if it is not given.
+CLI::Option* add_channel_rule(CLI::App& command, std::optional<data::ChannelRule>& rule);
 /// "fan", "shortest-diagonal"; empty: polygons are kept.
 std::string word(data::Triangulation polygons);
 /// Of a word of these.

@@ -10,8 +10,16 @@
 #include <vector>
 
 #include "data/control_mesh.h"
+#include "verify/row/result.h"
 
 namespace limitcheck::verify {
+
+/// Whose values a witness shows.
+inline void name_channel(Witness& witness, const data::Channel& channel) {
+  witness.channel = channel.name;
+  witness.rule =
+      data::kChannelRules[static_cast<std::size_t>(channel.rule.value_or(data::kUsualChannelRule))];
+}
 
 /// A channel with one value for each vertex: that of its first or its last face.
 inline data::Channel without_seams(const data::ControlMesh& mesh, data::Channel channel, bool first) {

@@ -27,19 +27,19 @@ ChannelRule rule_of(A a) {
   return uv_of(a).rule.value_or(data::kUsualChannelRule);
 }
 bool has_channel(A a) {
-  return !a.mesh.channels.empty();
+  return a.mesh.channels.size() == 1;
 }
 
 Change of_channels(Change c, std::function<bool(A)> shows = {}) {
   c.on = Change::On::kBoth;
   if (c.deliver)
     c.deliver = [what = std::move(c.deliver)](A a, D out) {
-      if (out.channel_values.empty()) nowhere("channel");
+      if (out.channel_values.empty() || a.mesh.channels.size() != 1) nowhere("channel");
       what(a, out);
     };
   if (c.remake)
     c.remake = [what = std::move(c.remake)](A a, Mesh m) {
-      if (m.channels.empty()) nowhere("channel");
+      if (m.channels.size() != 1) nowhere("channel");
       what(a, m);
     };
   c.shows = [shows = std::move(shows)](A a) { return has_channel(a) && (!shows || shows(a)); };
@@ -409,12 +409,13 @@ std::vector<Change> by_derivatives() {
                      [](A, Uv uv) { uv.rule = ChannelRule::kAll; }),
       derivatives_of("channel_derivatives_of_none", "derivatives of the rule none",
                      [](A, Uv uv) { uv.rule = ChannelRule::kNone; }),
-      derivatives("channel_derivatives_of_next_corner", "derivatives are those of the next corner",
-                  [](A, std::vector<double>& all, const Delivered&) {
-                    for (std::size_t t = 0; t + 12 <= all.size(); t += 12)
-                      std::rotate(&all[t], &all[t + 4], &all[t] + 12);
-                  },
-                  deep),
+      derivatives(
+          "channel_derivatives_of_next_corner", "derivatives are those of the next corner",
+          [](A, std::vector<double>& all, const Delivered&) {
+            for (std::size_t t = 0; t + 12 <= all.size(); t += 12)
+              std::rotate(&all[t], &all[t + 4], &all[t] + 12);
+          },
+          deep),
       derivatives("channel_derivatives_by_parameter", "all derivatives by u come first",
                   [](A, std::vector<double>& all, const Delivered&) {
                     const std::vector<double> before = all;
@@ -433,8 +434,9 @@ std::vector<Change> by_derivatives() {
                         at[k] = {double(p.i) / p.denominator, double(p.j) / p.denominator};
                       }
                       if (a.is_polygon(static_cast<std::size_t>(out.triangle_face[t]))) continue;
-                      const double ax = at[1][0] - at[0][0], ay = at[1][1] - at[0][1], bx = at[2][0] - at[0][0],
-                                   by = at[2][1] - at[0][1], det = ax * by - ay * bx;
+                      const double ax = at[1][0] - at[0][0], ay = at[1][1] - at[0][1],
+                                   bx = at[2][0] - at[0][0], by = at[2][1] - at[0][1],
+                                   det = ax * by - ay * bx;
                       const double* v = &out.channel_values[6 * t];
                       for (std::size_t k = 0; k < 3; ++k)
                         for (std::size_t c = 0; c < 2; ++c) {
@@ -444,18 +446,88 @@ std::vector<Change> by_derivatives() {
                         }
                     }
                   }),
-      derivatives("channel_derivatives_nan", "the derivatives at one triangle are NaN",
-                  [](A, std::vector<double>& all, const Delivered&) {
-                    std::fill(all.end() - 12, all.end(), std::numeric_limits<double>::quiet_NaN());
-                  },
-                  deep),
-      derivatives("channel_derivatives_unwritten", "the last derivative is not written",
-                  [](A, std::vector<double>& all, const Delivered&) {
-                    std::memset(&all.back(), 0xFF, sizeof(double));
-                  },
-                  {}, "written"),
-      derivatives("channel_derivatives_missing", "derivatives are promised and not delivered",
-                  [](A, std::vector<double>& all, const Delivered&) { all.clear(); }, {}, "written"),
+      derivatives(
+          "channel_derivatives_nan", "the derivatives at one triangle are NaN",
+          [](A, std::vector<double>& all, const Delivered&) {
+            std::fill(all.end() - 12, all.end(), std::numeric_limits<double>::quiet_NaN());
+          },
+          deep),
+      derivatives(
+          "channel_derivatives_unwritten", "the last derivative is not written",
+          [](A, std::vector<double>& all, const Delivered&) {
+            std::memset(&all.back(), 0xFF, sizeof(double));
+          },
+          {}, "written"),
+      derivatives(
+          "channel_derivatives_missing", "derivatives are promised and not delivered",
+          [](A, std::vector<double>& all, const Delivered&) { all.clear(); }, {}, "written"),
+  };
+}
+
+// Where there are two channels, of two and four components.
+Change channels(const char* name, const char* description, std::function<void(Mesh)> what) {
+  Change c = remake(name, description, "channel-positions", [what](A a, Mesh m) {
+    if (a.mesh.channels.size() != 2) nowhere("second channel");
+    what(m);
+  });
+  c.on = Change::On::kBoth;
+  c.shows = [what](A a) {
+    data::ControlMesh other = a.mesh;
+    if (other.channels.size() != 2) return false;
+    what(other);
+    return !(other == a.mesh);
+  };
+  return c;
+}
+std::vector<Change> by_several() {
+  return {
+      channels("channels_have_one_rule", "all channels have the rule of the first",
+               [](Mesh m) { m.channels[1].rule = m.channels[0].rule; }),
+      channels("channels_have_the_last_rule", "all channels have the rule of the last",
+               [](Mesh m) { m.channels[0].rule = m.channels[1].rule; }),
+      channels("channels_have_the_seams_of_one", "all channels have the indices of the first",
+               [](Mesh m) {
+                 const auto count = static_cast<std::int32_t>(m.channels[1].values.size() / 4);
+                 m.channels[1].corners = m.channels[0].corners;
+                 for (std::int32_t& i : m.channels[1].corners) i %= count;
+               }),
+      channels("channels_have_two_components", "beyond the second all components are 0",
+               [](Mesh m) {
+                 for (std::size_t i = 0; i < m.channels[1].values.size(); i += 4)
+                   m.channels[1].values[i + 2] = m.channels[1].values[i + 3] = 0;
+               }),
+      channels("channels_are_opaque", "of four components the last is 1",
+               [](Mesh m) {
+                 for (std::size_t i = 3; i < m.channels[1].values.size(); i += 4) m.channels[1].values[i] = 1;
+               }),
+      channels("channels_are_linear_but_the_first", "channels behind the first have the rule all",
+               [](Mesh m) { m.channels[1].rule = ChannelRule::kAll; }),
+  };
+}
+
+// What is remembered of an earlier mesh, or depends on the request.
+std::vector<Change> by_requests() {
+  const auto forgets = [](const char* name, const char* description, std::function<void(Uv)> what) {
+    return of_channels(with(row(name, description, "state"), &Change::forget, [what](Mesh m) {
+      for (Channel& c : m.channels) what(c);
+    }));
+  };
+  const auto request = [](const char* name, const char* description, std::function<bool(A)> when) {
+    return values_of_channel(name, description, "determinism", [when](A a, std::vector<double>& all) {
+      if (when(a)) all.back() += 1e-3;
+    });
+  };
+  return {
+      forgets("channel_remembers_values", "the values are those of an earlier mesh with the same indices",
+              [](Uv uv) { std::fill(uv.values.begin(), uv.values.end(), 0); }),
+      forgets("channel_remembers_indices", "the indices are those of an earlier mesh with the same values",
+              [](Uv uv) { std::fill(uv.corners.begin(), uv.corners.end(), 0); }),
+      forgets("channel_remembers_its_rule", "the rule is that of an earlier mesh with the same channel",
+              [](Uv uv) { uv.rule = ChannelRule::kNone; }),
+      request("channel_by_threads", "a value depends on the number of threads",
+              [](A a) { return a.threads > 1; }),
+      request("channel_by_request", "a value is another from the second request on",
+              [](A a) { return a.call > 1; }),
   };
 }
 
@@ -478,13 +550,14 @@ std::vector<Change> by_places() {
       on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
                                       [](A a, std::size_t f) { return a.is_polygon(f); })),
       sharp(of_channels(
-          deliver("channel_chaikin_in_the_cut", "by Chaikin's creasing sharpness falls in the mesh that is cut",
-                  "channel-positions",
-                  [](A a, D out) {
-                    bool is_exact = false;
-                    out.channel_values =
-                        a.again(cut_along_seams(a, is_exact), {a.depth.begin(), a.depth.end()}).channel_values;
-                  }),
+          deliver(
+              "channel_chaikin_in_the_cut", "by Chaikin's creasing sharpness falls in the mesh that is cut",
+              "channel-positions",
+              [](A a, D out) {
+                bool is_exact = false;
+                out.channel_values =
+                    a.again(cut_along_seams(a, is_exact), {a.depth.begin(), a.depth.end()}).channel_values;
+              }),
           [](A a) {
             bool is_exact = false;
             cut_along_seams(a, is_exact);
@@ -517,7 +590,8 @@ std::vector<Change> by_places() {
 
 std::vector<Change> faults_of_channels() {
   std::vector<Change> all;
-  for (auto& list : {by_rules(), by_indices(), by_values(), by_places(), by_derivatives()})
+  for (auto& list :
+       {by_rules(), by_indices(), by_values(), by_several(), by_requests(), by_places(), by_derivatives()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }

@@ -55,11 +55,11 @@ void visit_fields(Is<Recognised> auto& row, Visit&& visit) {
 }
 template <class Visit>
 void visit_fields(Is<Witness> auto& row, Visit&& visit) {
-  auto& [face, l1, l2, vertex, triangle, expected, got, digits, corner, channel] = row;
-  visit_each(
-      visit,
-      {"face", "corner", "l1", "l2", "vertex", "triangle", "expected", "got", "expected_digits", "channel"},
-      face, corner, l1, l2, vertex, triangle, expected, got, digits, channel);
+  auto& [face, l1, l2, vertex, triangle, expected, got, digits, corner, channel, rule] = row;
+  visit_each(visit,
+             {"face", "corner", "l1", "l2", "vertex", "triangle", "expected", "got", "expected_digits",
+              "channel", "channel_rule"},
+             face, corner, l1, l2, vertex, triangle, expected, got, digits, channel, rule);
 }
 template <class Visit>
 void visit_fields(Is<Report::Mesh> auto& row, Visit&& visit) {

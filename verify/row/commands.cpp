@@ -87,8 +87,10 @@ std::string eval_command(const Result& result) {
   if (channel.empty() && !kOfLimit.contains(result.check)) return "";
   return fmt::format("limitcheck eval {} {} {} {}{}{}{}{}", shell_word(result.mesh), result.witness->where(),
                      result.witness->l1, result.witness->l2,
-                     channel.empty() ? "" : " --channel " + shell_word(channel), mesh_options(result),
-                     result.precision == LC_FLOAT32 ? " --precision float" : "",
+                     channel.empty() ? ""
+                                     : fmt::format(" --channel {} --channel-rule {}", shell_word(channel),
+                                                   result.witness->rule),
+                     mesh_options(result), result.precision == LC_FLOAT32 ? " --precision float" : "",
                      result.weights == reference::Weights::kWarren ? " --weights warren" : "");
 }
 

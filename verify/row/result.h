@@ -98,7 +98,8 @@ struct Witness {
   std::vector<double> expected, got;
   std::vector<std::string> expected_digits;  // of findings in positions and normals: 40 digits
   int corner = -1;  // of a face that is cut into quads, the one whose quad l1 and l2 are of
-  std::string channel = {};  // of the control mesh, whose values are shown
+  std::string channel = {},
+              rule = {};  // of the control mesh, whose values are shown; its rule, "none" .. "all"
 
   /// What should have come, and what came.
   void show(const std::array<double, 3>& what, const std::array<double, 3>& instead) {

@@ -31,11 +31,12 @@ inline data::ControlMesh control_mesh(const lc_mesh& mesh) {
   if (mesh.corners_held != 0) result.sharpness.boundary = data::Boundary::kEdgeAndCorner;
   if (mesh.smooth_triangles != 0) result.sharpness.triangles = data::TriangleRule::kSmooth;
   for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
-    result.channels.push_back({"channel" + std::to_string(result.channels.size()),
-                               c.components,
-                               {c.values, c.values + c.components * c.value_count},
-                               {c.corners, c.corners + mesh.corner_count},
-                               static_cast<data::ChannelRule>(c.rule)});
+    result.channels.push_back(
+        {result.channels.empty() ? "uv" : "channel" + std::to_string(result.channels.size()),
+         c.components,
+         {c.values, c.values + c.components * c.value_count},
+         {c.corners, c.corners + mesh.corner_count},
+         static_cast<data::ChannelRule>(c.rule)});
   return result;
 }
 

@@ -182,13 +182,7 @@ void add_eval(CLI::App& app, int& exit_code) {
           "Evaluate a face-varying channel of the mesh in place of its positions: uv, the texture "
           "coordinates of an OBJ file or of a mesh by name. Face and parameters say on which side of a seam")
           ->excludes(subject);
-  Words<std::optional<data::ChannelRule>> rules;
-  for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k)
-    rules.push_back({std::string(data::kChannelRules[k]), static_cast<data::ChannelRule>(k)});
-  add_words(*command, "--channel-rule", request->channel_rule, rules,
-            "How a channel goes over seams and boundary, as USD's faceVaryingLinearInterpolation and "
-            "OpenSubdiv's FVarLinearInterpolation; by default as the file says, or else corners-plus1")
-      ->needs(channel);
+  add_channel_rule(*command, request->channel_rule)->needs(channel);
   command->footer(
       "Catmull-Clark: on a quad (U, V) is (0, 0) at corner 0, (1, 0) at corner 1, (1, 1) and (0, 1) at "
       "corners 2 and 3. Any other face has a quad at each corner: there (0, 0) is the corner, (1, 0) the "

@@ -65,8 +65,8 @@ struct Judged {
   std::vector<Uv> expected;
   std::int64_t good = 0;
 };
-Judged judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
-              const data::Channel& channel, ChannelRule rule, double diagonal) {
+Judged judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners, const data::Channel& channel,
+              ChannelRule rule, double diagonal) {
   const reference::ChannelSurface surface(e.control, channel, rule, e.scheme());
   Judged result{std::vector<double>(corners.size()), std::vector<Uv>(corners.size())};
   tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t k) {
@@ -114,7 +114,7 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
     r.witness = e.at_vertex(corners[at].vertex);
     r.witness->face = corners[at].at.face;
     r.witness->corner = corners[at].at.corner;
-    r.witness->channel = channel->name;
+    name_channel(*r.witness, *channel);
     r.witness->l1 = fmt::format("{}", corners[at].at.first);
     r.witness->l2 = fmt::format("{}", corners[at].at.second);
     r.witness->expected = {found.expected[at].begin(), found.expected[at].end()};

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <unordered_map>
 
 #include "data/control_mesh.h"
+#include "data/cut_channels.h"
 #include "data/error.h"
 
 namespace limitcheck::data {
@@ -39,6 +41,22 @@ std::string fault_of(const Channel& channel, const ControlMesh& mesh, std::int64
         return fmt::format("face {} names value {}, there are {}", face, first + index, values);
     }
   return "";
+}
+
+std::vector<Channel> channels_of(const std::vector<Channel>& whole, const Faces& whole_faces,
+                                 std::span<const std::int32_t> faces) {
+  std::vector<Channel> result;
+  for (const Channel& c : whole) {
+    Channel& part = result.emplace_back(Channel{c.name, c.components, {}, {}, c.rule});
+    std::unordered_map<std::int32_t, std::int32_t> number;
+    for (const std::int32_t f : faces)
+      for (std::size_t at = whole_faces.first_corner(f); at < whole_faces.first_corner(f + 1); ++at) {
+        const auto [entry, is_new] = number.try_emplace(c.corners[at], static_cast<std::int32_t>(number.size()));
+        for (int k = 0; is_new && k < c.components; ++k) part.values.push_back(c.at(at, k));
+        part.corners.push_back(entry->second);
+      }
+  }
+  return result;
 }
 
 const Channel& channel_of(const ControlMesh& mesh, std::string_view name) {

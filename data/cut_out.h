@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "data/channel.h"
 #include "data/faces.h"
 #include "data/sharpness.h"
 
@@ -36,11 +35,6 @@ struct CutOut {
   /// What of a whole mesh's sharp edges and vertices the part has.                       O(part + tags)
   Sharpness of(const Sharpness& whole) const;
 };
-
-/// What channels of a whole mesh some of its faces have: their corners, and the values that these name.
-///   faces   of the whole, in the order of the part
-std::vector<Channel> channels_of(const std::vector<Channel>& whole, const Faces& whole_faces,
-                                 std::span<const std::int32_t> faces);
 
 /// The given faces, each at most once, as a mesh of their own.       O(faces), however large the mesh is
 CutOut cut_out(const Faces& whole, std::span<const std::int32_t> faces);

@@ -129,22 +129,6 @@ Sharpness CutOut::of(const Sharpness& whole) const {
   return part;
 }
 
-std::vector<Channel> channels_of(const std::vector<Channel>& whole, const Faces& whole_faces,
-                                 std::span<const std::int32_t> faces) {
-  std::vector<Channel> result;
-  for (const Channel& c : whole) {
-    Channel& part = result.emplace_back(Channel{c.name, c.components, {}, {}, c.rule});
-    std::unordered_map<std::int32_t, std::int32_t> number;
-    for (const std::int32_t f : faces)
-      for (std::size_t at = whole_faces.first_corner(f); at < whole_faces.first_corner(f + 1); ++at) {
-        const auto [entry, is_new] = number.try_emplace(c.corners[at], static_cast<std::int32_t>(number.size()));
-        for (int k = 0; is_new && k < c.components; ++k) part.values.push_back(c.at(at, k));
-        part.corners.push_back(entry->second);
-      }
-  }
-  return result;
-}
-
 CutOut cut_out(const Faces& whole, std::span<const std::int32_t> faces) {
   CutOut part;
   part.faces.reserve(faces.size());

@@ -171,6 +171,7 @@ const std::vector<Command>& commands() {
         {"--provenance", {"", "points.csv"}},
         {"--control", {"", "cube.obj"}},
         {"--tessellation", {"", "cube.obj"}},
+        {"--channel-rule", {"--control uv-torus --tessellation atlas.obj", "all"}},
         {"--fit", {"", "scale"}},
         {"--tolerance", {"", "1"}},
         {"--max-deviation", {"", "1"}},
@@ -213,6 +214,7 @@ class OptionWalk : public CommandTest {
  protected:
   void SetUp() override {
     ASSERT_EQ(run("generate quad-cube -o cube.obj").code, 0);
+    ASSERT_EQ(run("generate uv-torus -o atlas.obj").code, 0);
     write("soup.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 4 6 5\n");
     write("points.csv", "0,1/4,1/4\n3,0.5,0.25\n");
     for (const char* journal : {"torn.jsonl", "torn.json.part1"}) write(journal, "{\"half\": ");

@@ -69,6 +69,8 @@ void write_files(const std::filesystem::path& folder, const std::filesystem::pat
             {"bound", result.bound ? Json(*result.bound) : Json(nullptr)},
             {"unit", result.unit},
             {"message", result.message}};
+  if (const std::string lost = data::left_out(mesh.mesh, data::FileFormat::kObj); !lost.empty())
+    json["left_out"] = "control.obj has no place for " + lost;
   if (result.witness) {
     const Witness& w = *result.witness;
     json["face"] = w.face >= 0 ? Json(w.face) : Json(nullptr);
@@ -78,7 +80,7 @@ void write_files(const std::filesystem::path& folder, const std::filesystem::pat
     json["expected"] = numbers(w.expected);
     json["got"] = numbers(w.got);
     if (const std::string command = eval_command(here); !command.empty()) {
-      add_limit(json, result, mesh.mesh);
+      if (w.channel.empty()) add_limit(json, result, mesh.mesh);
       json["eval"] = command + " --digits 40";
     }
   }

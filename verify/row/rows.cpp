@@ -184,8 +184,8 @@ const std::vector<RowKind>& row_kinds() {
       {"file-channel", "channels", kOther,
        "Only where the control mesh has texture coordinates: those of the file against the exact channel, at "
        "each corner of a "
-       "triangle on the side of the seam where the triangle lies. Rule: as the control mesh says, else "
-       "corners-plus1.",
+       "triangle on the side of the seam where the triangle lies. Rule: --channel-rule, else as the control "
+       "mesh says, else corners-plus1.",
        "--tolerance, in diagonals of the channel, and what the channel changes within the tolerance of a "
        "position.",
        kFile},

@@ -236,6 +236,34 @@ TEST(Protocol, HandsChannelsOverAndReadsTheirValues) {
   }
 }
 
+// Derivatives come behind the values if they were announced: at each corner those by u, then those by v.
+TEST(Protocol, ReadsDerivativesOfChannelsThatWereAnnounced) {
+  const Capabilities c = capabilities_of(
+      R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
+      R"("weights": "loop", "boundary": "spline", "points": "limit", "max_depth": 5, "normals": false, )"
+      R"("per_face_depth": false, "exact_lattice": true, "provenance": false, "channels": ["all"], )"
+      R"("channel_derivatives": true})"
+      "\n");
+  EXPECT_EQ(c.values.channel_derivatives, 1);
+  const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, values[] = {0.5, 0.25};
+  const std::int32_t corners[] = {0, 1, 2}, sizes[] = {3}, indices[] = {0, 1, 1};
+  const lc_channel channel{1, LC_CHANNEL_ALL, values, 2, indices};
+  lc_mesh mesh{positions, 3, corners, 1, sizeof(lc_mesh), LC_SCHEME_CATMULL_CLARK, corners, 3, sizes, 1};
+  mesh.channels = &channel, mesh.channel_count = 1;
+  const float numbers[] = {1, 2, 3}, value[] = {0.5, 1, 2}, derivative[] = {3, 4, 5, 6, 7, 8};
+  const std::uint32_t triangle[] = {0, 0, 0};
+  for (const auto& [payload, answer] :
+       {std::pair{Payload::kBinary, bytes_of(numbers, triangle, value) + bytes_of(derivative)},
+        {Payload::kText, "1 2 3\n0 0 0\n0.5\n1\n2\n3 4\n5 6\n7 8\n"}}) {
+    Read r;
+    read(r, kText + answer, payload, c, mesh);
+    ASSERT_NE(r.out.channel_derivatives, nullptr);
+    EXPECT_EQ(std::memcmp(r.out.channel_derivatives, derivative, sizeof derivative), 0);
+    Read shorter;
+    EXPECT_THROW(read(shorter, kText + answer.substr(0, answer.size() - 3), payload, c, mesh), Error);
+  }
+}
+
 // The table of PROTOCOL.md: each question has the keys that are sent, the first answer is one that is read.
 TEST(Protocol, IsAsItsPageSays) {
   std::ifstream in(LIMITCHECK_SOURCE_DIR "/verify/host/isolation/PROTOCOL.md");

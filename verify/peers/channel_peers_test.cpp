@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Channels by their rules against OpenSubdiv's Far, both schemes; and where Far is known to differ.
+// Channels by their rules against OpenSubdiv's Far, both schemes, and as each subject delivers them against the
+// reference; and where these are known to differ.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <vector>
@@ -13,7 +15,11 @@
 #include "data/generators/sharp_meshes.h"
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
+#include "reference/surface/channel.h"
+#include "verify/host/host.h"
 #include "verify/peers/test_opensubdiv.h"
+#include "verify/row/bounds.h"
+#include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -89,11 +95,13 @@ double worst_difference(ControlMesh mesh, ChannelRule rule, data::Scheme scheme,
 
 // What a channel has that Far is known to get wrong. [findings]
 struct Disputed {
-  bool parted = false;  // a value with several runs at a vertex of three runs and more
+  bool parted = false;   // a value with several runs at a vertex of three runs and more
+  bool in_runs = false;  // or of two
   bool dependent =
       false;  // a dependent value beside a semi-sharp seam, or at a vertex that is semi-sharp itself
   bool several =
       false;  // or with several edges that hold it: Far takes their mean, also where they last unequally
+  bool one_face = false;  // a value of one face
   bool any() const { return parted || dependent || several; }
 };
 Disputed disputed_of(const ControlMesh& mesh, ChannelRule rule) {
@@ -112,12 +120,14 @@ Disputed disputed_of(const ControlMesh& mesh, ChannelRule rule) {
     for (const Run& run : runs) {
       const std::size_t corner = channel.corner(channel.face(sector, run, 0), v);
       different.insert(mesh.channels[0].corners[corner]);
+      result.one_face = result.one_face || run.count == 1;
       if (channel.states[corner] != ValueState::kDependent) continue;
       int holding = 0;
       for (const auto& h : channel.holding(v, run)) holding += h.now > 0 ? 1 : 0;
       result.dependent = result.dependent || semi_sharp_seam || channel.sharpness.vertex(v) > 0;
       result.several = result.several || holding > 1;
     }
+    result.in_runs = result.in_runs || runs.size() > different.size();
     result.parted = result.parted || (runs.size() > different.size() && runs.size() > 2);
   }
   return result;
@@ -138,7 +148,7 @@ TEST(ChannelPeers, FarHasTheSameValuesWhereItIsRight) {
   for (std::uint64_t seed = 1; seed <= 6400; ++seed) {
     const bool triangles = seed % 2 == 0;
     const ControlMesh mesh = random_channel(seed, triangles);
-    const auto rule = static_cast<ChannelRule>(seed / 2 % 5);
+    const auto rule = static_cast<ChannelRule>(seed / 2 % 6);
     const double worst =
         worst_difference(mesh, rule, triangles ? data::Scheme::kLoop : data::Scheme::kCatmullClark, 3);
     // By Chaikin's creasing Far has other points of some edges, of positions as of values. [findings]
@@ -156,6 +166,106 @@ TEST(ChannelPeers, FarHasTheSameValuesWhereItIsRight) {
   std::printf("%d channels the same, %d disputed, of which %d differ\n", same, disputed, different);
   EXPECT_GE(same, 2000);
   EXPECT_GE(different, 100);
+}
+
+// How a subject delivers channels, and where it is known to do otherwise. [findings]
+struct Delivers {
+  const char *subject, *options;
+  data::Scheme scheme;
+  bool (*known)(const Disputed&, const ControlMesh&, ChannelRule);
+  double most = 0;  // that a value may be off; 0: the audit's bound of positions
+};
+bool for_far(const Disputed& d, const ControlMesh&, ChannelRule) {
+  return d.any();
+}
+// Of several edges that hold a value it takes the one that lasts longest.
+bool for_bfr(const Disputed& d, const ControlMesh&, ChannelRule) {
+  return d.several;
+}
+bool quads_alone(const ControlMesh& mesh) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (mesh.faces[f].size() != 4) return false;
+  return true;
+}
+// Values of one face by the rule none, values in several runs, sharp edges that end at a seam; by the rule all, faces that
+// are no quads.
+bool for_embree(const Disputed& d, const ControlMesh& mesh, ChannelRule rule) {
+  if (rule == ChannelRule::kAll) return !quads_alone(mesh);
+  if (rule == ChannelRule::kBoundaries) return !mesh.sharpness.empty();
+  return d.in_runs || !mesh.sharpness.empty() || (d.one_face && rule == ChannelRule::kNone);
+}
+
+// Sharp edges and vertices that are smooth after two steps: behind them the limits of all are right.
+ControlMesh short_lived(ControlMesh mesh) {
+  mesh.sharpness.creasing = data::Creasing::kUniform;
+  const auto shorten = [](float& s) { s = s < data::kInfiniteSharpness ? std::min(s, 1 + s / 8) : 2; };
+  for (auto& e : mesh.sharpness.edges) shorten(e.sharpness);
+  for (auto& v : mesh.sharpness.vertices) shorten(v.sharpness);
+  return mesh;
+}
+
+// At the corners of triangles whose vertices are named by the triangle's own face.
+double worst_delivered(const Session& session, const Tessellation& t, ChannelRule rule, data::Scheme scheme) {
+  const reference::ChannelSurface surface(session.mesh(), session.mesh().channels.at(0), rule, scheme);
+  double worst = 0;
+  for (std::int64_t n = 0; n < t.triangle_count(); ++n)
+    for (int k = 0; k < 3; ++k) {
+      const Place at = t.place(t.triangles()[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)]);
+      if (at.face != t.triangle_face()[static_cast<std::size_t>(n)]) continue;
+      const auto is =
+          surface.evaluate(at.face, at.corner, double(at.i) / at.denominator, double(at.j) / at.denominator)
+              .position;
+      const double off = std::hypot(t.channel_value(0, n, k, 0) - is.x, t.channel_value(0, n, k, 1) - is.y);
+      worst = std::isfinite(off) ? std::max(worst, off) : off;
+    }
+  return worst;
+}
+
+TEST(ChannelPeers, SubjectsDeliverTheReferencesValuesWhereTheyAreRight) {
+  constexpr int kDepth = 2;
+  constexpr auto kLoop = data::Scheme::kLoop, kQuads = data::Scheme::kCatmullClark;
+  const char* const patches = "precision=double,level=6,corners=smooth,inf-sharp=on";
+  const char* const stencils = "precision=double,level=6,corners=smooth,inf-sharp=on,evaluate=limit-stencils";
+  const char* const bfr = "precision=double,approx-level=6";
+  const Delivers all[] = {{"opensubdiv-far", "precision=double", kLoop, for_far, kSame},
+                          {"opensubdiv-far", "precision=double", kQuads, for_far, kSame},
+                          {"opensubdiv-far", "precision=double,evaluate=stencils", kLoop, for_far, kSame},
+                          {"opensubdiv-far", "precision=double,evaluate=stencils", kQuads, for_far, kSame},
+                          {"opensubdiv-far-patches", patches, kLoop, for_far},
+                          {"opensubdiv-far-patches", patches, kQuads, for_far},
+                          {"opensubdiv-far-patches", stencils, kLoop, for_far},
+                          {"opensubdiv-far-patches", stencils, kQuads, for_far},
+                          {"opensubdiv-bfr", bfr, kLoop, for_bfr},
+                          {"opensubdiv-bfr", bfr, kQuads, for_bfr},
+                          {"embree", "", kQuads, for_embree}};
+  for (const auto& [name, options, scheme, known, most] : all) {
+    SCOPED_TRACE(std::string(name) + ":" + options);
+    int same = 0, different = 0;
+    double worst_same = 0;
+    for (std::uint64_t seed = 1; seed <= 250; ++seed) {
+      ControlMesh mesh = short_lived(random_channel(seed, scheme == kLoop));
+      const auto rule = static_cast<ChannelRule>(seed / 3 % 6);
+      mesh.channels[0].rule = rule;
+      Session session(*find_subject(name), mesh, options, Session::Input::kValid, scheme);
+      if (session.mesh().channels.empty()) continue;  // it has no such rule
+      const Tessellation t = session.tessellate(kDepth);
+      ASSERT_TRUE(t.defects().empty() && t.overruns().empty());
+      ASSERT_EQ(t.channel_count(), 1U);
+      const double worst = worst_delivered(session, t, rule, scheme),
+                   bound = most > 0 ? most : position_bound(session.capabilities().precision, kDepth, 4, 1);
+      if (known(disputed_of(mesh, rule), mesh, rule)) {
+        different += worst > bound ? 1 : 0;
+      } else {
+        same += 1, worst_same = std::max(worst_same, worst);
+        EXPECT_LE(worst, bound) << "seed " << seed << " rule "
+                                << data::kChannelRules[static_cast<std::size_t>(rule)];
+      }
+    }
+    std::printf("%s:%s: %d channels the same, %.2g at most; %d known to differ do\n", name, options, same,
+                worst_same, different);
+    EXPECT_GE(same, 20);
+    EXPECT_GE(different, 1);
+  }
 }
 
 }  // namespace

@@ -10,6 +10,9 @@
 // Sharp edges and vertices: an infinite sharpness is an infinite float. There is no choice of creasing: where
 // two sharp edges meet sharpness falls by Chaikin's rule, elsewhere by 1. We ask for it as uniform, which it
 // is for creases of one sharpness. There is no other rule for triangles.
+//
+// Channels are attributes with topologies of their own, whose modes are four of the six rules: corners-plus1 and
+// corners-plus2 it does not have.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -17,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -41,21 +45,30 @@ using Geometry = std::unique_ptr<RTCGeometryTy, Release<rtcReleaseGeometry>>;
 // One face after another.
 class FaceOfGeometry {
  public:
-  FaceOfGeometry(RTCGeometry geometry, const std::int32_t* sizes) : geometry_(geometry), sizes_(sizes) {}
+  FaceOfGeometry(RTCGeometry geometry, const lc_mesh& mesh) : geometry_(geometry), mesh_(mesh) {}
   void begin(std::int32_t face) { face_ = face; }
-  // A face that is no quad has its parts in a square of squares of two units, four to a row, each from 1/2
-  // to 3/2.
   void evaluate(std::int32_t part, const float* uv, float* position, float* du, float* dv) const {
-    const bool whole = sizes_[face_] == 4;
-    const float u = whole ? uv[0] : 2 * static_cast<float>(part % 4) + 0.5F + uv[0];
-    const float v = whole ? uv[1] : 2 * static_cast<float>(part / 4) + 0.5F + uv[1];
+    const auto [u, v] = at(part, uv);
     rtcInterpolate1(geometry_, static_cast<unsigned>(face_), u, v, RTC_BUFFER_TYPE_VERTEX, 0, position, du,
                     dv, 3);
   }
+  void channel(std::size_t number, std::int32_t part, const float* uv, float* value) const {
+    const auto [u, v] = at(part, uv);
+    rtcInterpolate0(geometry_, static_cast<unsigned>(face_), u, v, RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE,
+                    static_cast<unsigned>(number), value,
+                    static_cast<unsigned>(mesh_.channels[number].components));
+  }
 
  private:
+  // A face that is no quad has its parts in a square of squares of two units, four to a row, each from 1/2
+  // to 3/2.
+  std::array<float, 2> at(std::int32_t part, const float* uv) const {
+    if (mesh_.face_sizes[face_] == 4) return {uv[0], uv[1]};
+    return {2 * static_cast<float>(part % 4) + 0.5F + uv[0], 2 * static_cast<float>(part / 4) + 0.5F + uv[1]};
+  }
+
   RTCGeometry geometry_;
-  const std::int32_t* sizes_;
+  const lc_mesh& mesh_;
   std::int32_t face_ = 0;
 };
 
@@ -66,11 +79,14 @@ class EmbreeSubject {
   static constexpr bool kTakesAnyEdge = true;  // a fault of its own (verify/peers/findings)
 
   static lc_capabilities capabilities(Options&, lc_scheme) {
-    return {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 0};
+    lc_capabilities result{LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 10, 1, 1, 0};
+    result.channel_rules = 1 << LC_CHANNEL_NONE | 1 << LC_CHANNEL_CORNERS_ONLY | 1 << LC_CHANNEL_BOUNDARIES |
+                           1 << LC_CHANNEL_ALL;
+    return result;
   }
 
   EmbreeSubject(const lc_mesh& mesh, Options&) : mesh_(mesh) {
-    refuse_beyond_its_arrays();
+    const std::vector<Ring> rings = rings_of(mesh.corners, mesh.vertex_count);
     device_.reset(rtcNewDevice("threads=1"));
     if (device_ == nullptr) throw SubjectError(LC_FAILED, "Embree makes no device");
     geometry_.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SUBDIVISION));
@@ -84,10 +100,10 @@ class EmbreeSubject {
                 buffer<std::uint32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, mesh.corner_count));
     std::copy_n(mesh.face_sizes, mesh.face_count,
                 buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, mesh.face_count));
-    hand_over_sharpness();
-    rtcSetGeometrySubdivisionMode(
-        geometry_.get(), 0,
-        mesh.corners_held != 0 ? RTC_SUBDIVISION_MODE_PIN_CORNERS : RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
+    hand_over_sharpness(rings);
+    rtcSetGeometryTopologyCount(geometry_.get(), 1 + static_cast<unsigned>(mesh.channel_count));
+    rtcSetGeometryVertexAttributeCount(geometry_.get(), static_cast<unsigned>(mesh.channel_count));
+    for (unsigned c = 0; c < mesh.channel_count; ++c) hand_over_channel(c);
     rtcCommitGeometry(geometry_.get());
     // It joins the faces when a scene is committed.
     scene_.reset(rtcNewScene(device_.get()));
@@ -100,22 +116,28 @@ class EmbreeSubject {
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const FacePatterns patterns(mesh_, request, [](int) { return FacePattern{}; });
     tessellate_faces<float>(mesh_, patterns, request, out,
-                            [&] { return FaceOfGeometry(geometry_.get(), mesh_.face_sizes); });
+                            [&] { return FaceOfGeometry(geometry_.get(), mesh_); });
   }
 
  private:
+  struct Ring {
+    int faces = 0, points = 0;
+    std::set<std::int32_t> neighbours = {};
+  };
+
   template <class T>
-  T* buffer(RTCBufferType type, RTCFormat format, std::int64_t count) {
-    void* const memory =
-        rtcSetNewGeometryBuffer(geometry_.get(), type, 0, format, sizeof(T), static_cast<std::size_t>(count));
+  T* buffer(RTCBufferType type, RTCFormat format, std::int64_t count, unsigned slot = 0) {
+    void* const memory = rtcSetNewGeometryBuffer(geometry_.get(), type, slot, format, sizeof(T),
+                                                 static_cast<std::size_t>(count));
     if (memory == nullptr) throw SubjectError(LC_FAILED, "Embree makes no buffer");
     return static_cast<T*>(memory);
   }
 
-  void hand_over_sharpness() {
+  // Its mode PIN_CORNERS holds boundary vertices of one face in one topology; sharp vertices are those of all.
+  void hand_over_sharpness(const std::vector<Ring>& rings) {
+    constexpr float kHeld = std::numeric_limits<float>::infinity();
     const auto weight = [](const auto& tag) {
-      return tag.sharpness >= limitcheck::data::kInfiniteSharpness ? std::numeric_limits<float>::infinity()
-                                                                   : tag.sharpness;
+      return tag.sharpness >= limitcheck::data::kInfiniteSharpness ? kHeld : tag.sharpness;
     };
     if (const std::int64_t count = mesh_.sharp_edge_count; count > 0) {
       const lc_sharp_edge* const edges = mesh_.sharp_edges;
@@ -128,42 +150,69 @@ class EmbreeSubject {
       std::transform(edges, edges + count,
                      buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count), weight);
     }
-    if (const std::int64_t count = mesh_.sharp_vertex_count; count > 0) {
-      const lc_sharp_vertex* const vertices = mesh_.sharp_vertices;
-      std::transform(vertices, vertices + count,
-                     buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT, count),
-                     [](const lc_sharp_vertex& v) { return static_cast<std::uint32_t>(v.vertex); });
-      std::transform(vertices, vertices + count,
-                     buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count), weight);
+    std::map<std::uint32_t, float> vertices;
+    for (std::int64_t k = 0; k < mesh_.sharp_vertex_count; ++k)
+      vertices[static_cast<std::uint32_t>(mesh_.sharp_vertices[k].vertex)] = weight(mesh_.sharp_vertices[k]);
+    for (std::uint32_t v = 0; mesh_.corners_held != 0 && v < rings.size(); ++v)
+      if (rings[v].faces == 1) vertices[v] = kHeld;
+    if (vertices.empty()) return;
+    const auto count = std::ssize(vertices);
+    auto* at = buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT, count);
+    auto* by = buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count);
+    for (const auto& [v, sharpness] : vertices) *at++ = v, *by++ = sharpness;
+  }
+
+  // An attribute on a topology of its own, whose vertices are the values: pairs of a vertex and an index.
+  void hand_over_channel(unsigned number) {
+    const lc_channel& channel = mesh_.channels[number];
+    std::map<std::array<std::int32_t, 2>, std::int32_t> values;
+    std::vector<std::int32_t> corners;
+    for (std::int64_t k = 0; k < mesh_.corner_count; ++k)
+      corners.push_back(
+          values.try_emplace({mesh_.corners[k], channel.corners[k]}, static_cast<std::int32_t>(values.size()))
+              .first->second);
+    (void)rings_of(corners.data(), std::ssize(values));
+    std::copy(corners.begin(), corners.end(),
+              buffer<std::int32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, mesh_.corner_count, number + 1));
+    auto* const to = buffer<std::array<float, 4>>(RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, RTC_FORMAT_FLOAT4,
+                                                  std::ssize(values), number);
+    for (const auto& [at, value] : values) {
+      to[value] = {};
+      std::copy_n(channel.values + std::int64_t{at[1]} * channel.components, channel.components,
+                  to[value].begin());
     }
+    rtcSetGeometryVertexAttributeTopology(geometry_.get(), number, number + 1);
+    rtcSetGeometrySubdivisionMode(geometry_.get(), number + 1, mode_of(channel.rule));
+  }
+  static RTCSubdivisionMode mode_of(lc_channel_rule rule) {
+    if (rule == LC_CHANNEL_NONE) return RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY;
+    if (rule == LC_CHANNEL_CORNERS_ONLY) return RTC_SUBDIVISION_MODE_PIN_CORNERS;
+    return rule == LC_CHANNEL_BOUNDARIES ? RTC_SUBDIVISION_MODE_PIN_BOUNDARY : RTC_SUBDIVISION_MODE_PIN_ALL;
   }
 
   // Its rings are arrays of 64 faces and 128 points; Debian's library asserts that they suffice. A face of n
   // corners adds n - 2 points, and the boundary one more and a face with a point that stand for the outside.
-  void refuse_beyond_its_arrays() const {
+  std::vector<Ring> rings_of(const std::int32_t* corners, std::int64_t vertices) const {
     constexpr int kMostCorners = 15, kMostFaces = 64, kMostPoints = 128;
-    struct Ring {
-      int faces = 0, points = 0;
-      std::set<std::int32_t> neighbours = {};
-    };
-    std::vector<Ring> rings(static_cast<std::size_t>(mesh_.vertex_count));
-    for (std::int64_t f = 0, first = 0; f < mesh_.face_count; first += mesh_.face_sizes[f++]) {
+    std::vector<Ring> rings(static_cast<std::size_t>(vertices));
+    for (std::int64_t f = 0; f < mesh_.face_count; corners += mesh_.face_sizes[f++]) {
       const int n = mesh_.face_sizes[f];
       if (n > kMostCorners)
         throw SubjectError(LC_NOT_SUPPORTED, "Embree has no faces of more than 15 corners");
       for (int k = 0; k < n; ++k) {
-        Ring& ring = rings[static_cast<std::size_t>(mesh_.corners[first + k])];
+        Ring& ring = rings[static_cast<std::size_t>(corners[k])];
         ring.faces += 1, ring.points += n - 2;
-        ring.neighbours.insert({mesh_.corners[first + (k + 1) % n], mesh_.corners[first + (k + n - 1) % n]});
+        ring.neighbours.insert({corners[(k + 1) % n], corners[(k + n - 1) % n]});
       }
     }
-    for (Ring& ring : rings) {
-      if (std::ssize(ring.neighbours) > ring.faces) ring.faces += 1, ring.points += 2;  // on the boundary
-      if (ring.faces > kMostFaces || ring.points > kMostPoints)
+    for (const Ring& ring : rings) {
+      const int outside = std::ssize(ring.neighbours) > ring.faces ? 1 : 0;  // on the boundary
+      if (ring.faces + outside > kMostFaces || ring.points + 2 * outside > kMostPoints)
         throw SubjectError(
             LC_NOT_SUPPORTED,
             "Embree has no rings of more than 64 faces, with one for the boundary, or 128 points");
     }
+    return rings;
   }
 
   const lc_mesh mesh_;

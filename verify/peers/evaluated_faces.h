@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -111,14 +112,18 @@ class FacePatterns {
 /// Tessellates each face by its pattern. `surface()` makes, once for each range of faces, what has
 ///   void begin(std::int32_t face)
 ///   void evaluate(std::int32_t part, const Real uv[2], Real position[3], Real du[3], Real dv[3])
-/// and is asked for all points of a face in the order of its pattern.
+///   void channel(std::size_t number, std::int32_t part, const Real uv[2], Real value[])   all components
+/// and is asked for all points of a face in the order of its pattern, for the channels of the mesh at each of them.
 template <class Real, class Make>
 void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const lc_request& request,
                       lc_tessellation& out, Make&& surface) {
   const auto output = allocate_output<Real>(request, out, patterns.vertices(), patterns.triangles(), true,
                                             /*corners=*/mesh.scheme == LC_SCHEME_CATMULL_CLARK);
+  const std::span channels(mesh.channels, static_cast<std::size_t>(mesh.channel_count));
+  Real* const channel_values = channels.empty() ? nullptr : allocate_channels<Real>(request, mesh, out);
   faces_in_parallel(patterns.faces(), request.threads, [&](std::int64_t begin, std::int64_t end) {
     auto here = surface();
+    std::vector<std::vector<Real>> values(channels.size());  // of the points of a face
     for (std::int64_t f = begin; f < end; ++f) {
       auto [pattern, vertex, triangle] = patterns.of(f);
       if (pattern == nullptr) continue;
@@ -126,6 +131,8 @@ void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const l
       here.begin(face);
       const auto first = static_cast<std::uint32_t>(vertex);
       const auto denominator = static_cast<Real>(pattern->denominator);
+      for (std::size_t c = 0; c < channels.size(); ++c)
+        values[c].resize(pattern->points.size() * static_cast<std::size_t>(channels[c].components));
       for (const FaceDomain::Point& p : pattern->points) {
         const Real uv[2] = {static_cast<Real>(p.i) / denominator, static_cast<Real>(p.j) / denominator};
         Real du[3], dv[3];
@@ -137,7 +144,18 @@ void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const l
         output.provenance[vertex] = {face, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
                                      pattern->denominator};
         if (output.corner != nullptr) output.corner[vertex] = p.part;
+        for (std::size_t c = 0; c < channels.size(); ++c)
+          here.channel(c, p.part, uv, values[c].data() + (vertex - first) * channels[c].components);
         ++vertex;
+      }
+      Real* to = channel_values;
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        const std::int32_t n = channels[c].components;
+        Real* value = to + 3 * triangle * n;
+        for (const auto& corners : pattern->triangles)
+          for (const std::uint32_t v : corners)
+            value = std::copy_n(values[c].data() + static_cast<std::int64_t>(v) * n, n, value);
+        to += 3 * patterns.triangles() * n;
       }
       for (const auto& corners : pattern->triangles) {
         for (std::size_t c = 0; c < 3; ++c)

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface), evaluated point by
-// point, and forgotten: the streaming use, nearest to what the paper does. The points are those of the
+// OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface, for channels
+// InitFaceVaryingSurface), evaluated point by point, and forgotten: the streaming use, nearest to what the paper does. The points are those of the
 // library's uniform Tessellation of a triangle; on Catmull-Clark's faces ours, because the library's of a
 // pentagon are not those of its refinement.
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,30 +30,50 @@ using Factory = Bfr::RefinerSurfaceFactory<Cache>;
 template <class Real>
 class FaceSurface {
  public:
-  FaceSurface(const Factory& factory, const std::vector<Real>& control)
-      : factory_(factory), control_(control) {}
+  // Points or values of the control mesh, and their coordinates.
+  struct Control {
+    int size;
+    std::vector<Real> values;
+  };
+
+  //   control   of the mesh, and of each channel
+  FaceSurface(const Factory& factory, const std::vector<Control>& control)
+      : factory_(factory), control_(control), surfaces_(control.size()), points_(control.size()) {}
 
   void begin(std::int32_t face) {
     const OpenSubdivErrors errors;
-    if (!factory_.InitVertexSurface(face, &surface_))
-      throw SubjectError(LC_NOT_SUPPORTED, "Bfr has no limit surface for face " + std::to_string(face));
-    errors.check();
-    points_.resize(3 * static_cast<std::size_t>(surface_.GetNumPatchPoints()));
-    surface_.PreparePatchPoints(control_.data(), 3, points_.data(), 3);
+    for (std::size_t k = 0; k < control_.size(); ++k) {
+      Bfr::Surface<Real>& surface = surfaces_[k];
+      if (!(k == 0 ? factory_.InitVertexSurface(face, &surface)
+                   : factory_.InitFaceVaryingSurface(face, &surface, static_cast<Factory::FVarID>(k - 1))))
+        throw SubjectError(LC_NOT_SUPPORTED, "Bfr has no limit surface for face " + std::to_string(face));
+      errors.check();
+      const int size = control_[k].size;
+      points_[k].resize(static_cast<std::size_t>(size) *
+                        static_cast<std::size_t>(surface.GetNumPatchPoints()));
+      surface.PreparePatchPoints(control_[k].values.data(), size, points_[k].data(), size);
+    }
   }
   // Catmull-Clark's faces of other sizes than four have the parts as sub-faces, turned as ours.
   void evaluate(std::int32_t part, const Real* uv, Real* position, Real* du, Real* dv) const {
-    const Bfr::Parameterization face = surface_.GetParameterization();
-    Real of_face[2] = {uv[0], uv[1]};
-    if (face.HasSubFaces()) face.ConvertNormalizedSubFaceToCoord(part, uv, of_face);
-    surface_.Evaluate(of_face, points_.data(), 3, position, du, dv);
+    surfaces_[0].Evaluate(at(part, uv).data(), points_[0].data(), 3, position, du, dv);
+  }
+  void channel(std::size_t c, std::int32_t part, const Real* uv, Real* value) const {
+    surfaces_[c + 1].Evaluate(at(part, uv).data(), points_[c + 1].data(), control_[c + 1].size, value);
   }
 
  private:
+  std::array<Real, 2> at(std::int32_t part, const Real* uv) const {
+    const Bfr::Parameterization face = surfaces_[0].GetParameterization();
+    std::array<Real, 2> of_face{uv[0], uv[1]};
+    if (face.HasSubFaces()) face.ConvertNormalizedSubFaceToCoord(part, uv, of_face.data());
+    return of_face;
+  }
+
   const Factory& factory_;
-  const std::vector<Real>& control_;
-  Bfr::Surface<Real> surface_;
-  std::vector<Real> points_;
+  const std::vector<Control>& control_;
+  std::vector<Bfr::Surface<Real>> surfaces_;
+  std::vector<std::vector<Real>> points_;
 };
 
 class BfrSubject {
@@ -61,8 +83,10 @@ class BfrSubject {
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
     (void)approx_level(options);
-    return {
+    lc_capabilities result{
         wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
+    result.channel_rules = kAllChannelRules;
+    return result;
   }
 
   BfrSubject(const lc_mesh& mesh, Options& options)
@@ -85,7 +109,10 @@ class BfrSubject {
 
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
-    const std::vector<Real> control(mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count);
+    std::vector<typename FaceSurface<Real>::Control> control;
+    control.push_back({3, {mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count}});
+    for (const lc_channel& c : std::span(mesh_.channels, static_cast<std::size_t>(mesh_.channel_count)))
+      control.push_back({c.components, {c.values, c.values + c.components * c.value_count}});
     const FacePatterns patterns(mesh_, request, opensubdiv_triangle);
     tessellate_faces<Real>(mesh_, patterns, request, out,
                            [&] { return FaceSurface<Real>(*factory_, control); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OpenSubdiv Far's patches: the mesh refined where it is irregular (RefineAdaptive), a PatchTable made of
-// what results, and the patch under each lattice point evaluated (PatchMap::FindPatch, EvaluateBasis). Beyond
-// the level of isolation irregular faces are covered by end caps, which approximate. Or stencils made of the
+// what results, and the patch under each lattice point evaluated (PatchMap::FindPatch, EvaluateBasis, for channels
+// EvaluateBasisFaceVarying). Beyond the level of isolation irregular faces are covered by end caps, which approximate. Or stencils made of the
 // same patches (LimitStencilTable), which are applied to the control mesh.
 #include <opensubdiv/far/patchMap.h>
 #include <opensubdiv/far/patchTable.h>
@@ -10,9 +10,11 @@
 #include <opensubdiv/far/ptexIndices.h>
 #include <opensubdiv/far/stencilTableFactory.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
@@ -26,55 +28,171 @@ using Patches = Far::PatchTableFactory;
 
 template <class Real>
 using Vector = OpenSubdivVector<Real>;
+template <class Real>
+using Value = OpenSubdivValue<Real>;
+
+struct Settings {
+  explicit Settings(Options& options)
+      : wide(options.choice("precision", {"float", "double"}) == 1),
+        bspline(options.choice("end-cap", {"gregory", "bspline"}) == 1),
+        legacy_corners(options.choice("corners", {"legacy", "smooth"}) == 0),
+        linear_channels(options.choice("channels", {"smooth", "linear"}) == 1),
+        stencils(options.choice("evaluate", {"patches", "limit-stencils"}) == 1),
+        infinite_creases(options.choice("inf-sharp", {"off", "on"}) == 1),
+        single_crease(options.choice("single-crease", {"off", "on"}) == 1),
+        level(options.integer("level", 2, 1, 10)) {}
+  bool wide, bspline, legacy_corners, linear_channels, stencils, infinite_creases, single_crease;
+  int level;
+};
+
+// A mesh refined where it is irregular, or one of its channels is, and the patches of all that.
+struct Patched {
+  Patched(const lc_mesh& mesh, OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary, const Settings& s)
+      : refiner(make_refiner(mesh, opensubdiv_scheme(mesh), boundary)) {
+    const OpenSubdivErrors errors;
+    Patches::Options patches(static_cast<unsigned>(s.level));
+    patches.SetEndCapType(s.bspline ? Patches::Options::ENDCAP_BSPLINE_BASIS
+                                    : Patches::Options::ENDCAP_GREGORY_BASIS);
+    // By default a boundary vertex of one face gets the patch of a sharp corner, which is another surface.
+    patches.generateLegacySharpCornerPatches = s.legacy_corners;
+    patches.generateFVarTables = mesh.channel_count > 0;
+    patches.generateFVarLegacyLinearPatches = s.linear_channels;
+    patches.useInfSharpPatch = s.infinite_creases;
+    patches.useSingleCreasePatch = s.single_crease;
+    s.wide ? patches.SetPatchPrecision<double>() : patches.SetPatchPrecision<float>();
+    s.wide ? patches.SetFVarPatchPrecision<double>() : patches.SetFVarPatchPrecision<float>();
+    refiner->RefineAdaptive(patches.GetRefineAdaptiveOptions());
+    table.reset(Patches::Create(*refiner, patches));
+    errors.check();
+    if (table == nullptr) throw SubjectError(LC_FAILED, "OpenSubdiv makes no patches of this mesh");
+    map = std::make_unique<Far::PatchMap>(*table);
+    ptex = std::make_unique<Far::PtexIndices>(*refiner);
+  }
+
+  // The points, or values of a channel, of all levels, then those of the end caps.
+  template <class Real>
+  std::vector<Vector<Real>> all(std::vector<Vector<Real>> points) const {
+    const auto refined = static_cast<std::size_t>(refiner->GetNumVerticesTotal());
+    points.resize(refined + static_cast<std::size_t>(table->GetNumLocalPoints()));
+    const Far::PrimvarRefinerReal<Real> primvars(*refiner);
+    Vector<Real>* from = points.data();
+    for (int level = 1; level <= refiner->GetMaxLevel(); ++level) {
+      Vector<Real>* const to = from + refiner->GetLevel(level - 1).GetNumVertices();
+      primvars.Interpolate(level, from, to);
+      from = to;
+    }
+    if (table->GetNumLocalPoints() > 0)
+      table->GetLocalPointStencilTable<Real>()->UpdateValues(points.data(), points.data() + refined);
+    return points;
+  }
+  template <class Real>
+  std::vector<Value<Real>> all(std::vector<Value<Real>> values, int channel) const {
+    const auto refined = static_cast<std::size_t>(refiner->GetNumFVarValuesTotal(channel));
+    values.resize(refined + static_cast<std::size_t>(table->GetNumLocalPointsFaceVarying(channel)));
+    const Far::PrimvarRefinerReal<Real> primvars(*refiner);
+    Value<Real>* from = values.data();
+    for (int level = 1; level <= refiner->GetMaxLevel(); ++level) {
+      Value<Real>* const to = from + refiner->GetLevel(level - 1).GetNumFVarValues(channel);
+      primvars.InterpolateFaceVarying(level, from, to, channel);
+      from = to;
+    }
+    if (values.size() > refined)
+      table->GetLocalPointFaceVaryingStencilTable<Real>(channel)->UpdateValues(values.data(),
+                                                                               values.data() + refined);
+    return values;
+  }
+
+  // The parts of a face are its ptex faces.
+  template <class Real>
+  const Far::PatchTable::PatchHandle& patch(std::int32_t face, std::int32_t part, const Real* uv) const {
+    const auto* const found =
+        map->FindPatch(ptex->GetFaceId(face) + part, static_cast<double>(uv[0]), static_cast<double>(uv[1]));
+    if (found == nullptr)
+      throw SubjectError(LC_NOT_SUPPORTED, "Far has no patch on face " + std::to_string(face));
+    return *found;
+  }
+
+  std::unique_ptr<Far::TopologyRefiner> refiner;
+  std::unique_ptr<Far::PatchTable> table;
+  std::unique_ptr<Far::PatchMap> map;
+  std::unique_ptr<Far::PtexIndices> ptex;
+};
+
+template <class Real>
+void copy(const Value<Real>& value, const lc_channel& channel, Real* to) {
+  std::copy_n(value.x.begin(), channel.components, to);
+}
 
 // The patches over one face after another.
 template <class Real>
 class FacePatches {
  public:
-  FacePatches(const Far::PatchTable& table, const Far::PatchMap& map, const Far::PtexIndices& ptex,
-              const std::vector<Vector<Real>>& points)
-      : table_(table), map_(map), ptex_(ptex), points_(points) {}
-
-  void begin(std::int32_t face) { face_ = face; }
-  // The parts of a face are its ptex faces.
-  void evaluate(std::int32_t part, const Real* uv, Real* position, Real* du, Real* dv) const {
-    const auto* patch =
-        map_.FindPatch(ptex_.GetFaceId(face_) + part, static_cast<double>(uv[0]), static_cast<double>(uv[1]));
-    if (patch == nullptr)
-      throw SubjectError(LC_NOT_SUPPORTED, "Far has no patch on face " + std::to_string(face_));
-    constexpr std::size_t kMost = 20;  // control points of a patch
-    std::array<Real, kMost> w{}, wu{}, wv{};
-    table_.EvaluateBasis(*patch, uv[0], uv[1], w.data(), wu.data(), wv.data());
-    const auto control = table_.GetPatchVertices(*patch);
-    for (std::size_t c = 0; c < 3; ++c) position[c] = du[c] = dv[c] = 0;
-    for (int k = 0; k < control.size(); ++k) {
-      const auto& p = points_[control[k]].x;
-      const auto weight = static_cast<std::size_t>(k);
-      for (std::size_t c = 0; c < 3; ++c) {
-        position[c] += w[weight] * p[c];
-        du[c] += wu[weight] * p[c];
-        dv[c] += wv[weight] * p[c];
-      }
-    }
+  FacePatches(const lc_mesh& mesh, const Patched& surface, const Patched* channels)
+      : mesh_(mesh),
+        surface_(surface),
+        channels_(channels),
+        points_(surface.all<Real>(opensubdiv_points<Real>(mesh))) {
+    for (int c = 0; c < mesh.channel_count; ++c)
+      values_.push_back(channels->all<Real>(opensubdiv_values<Real>(mesh.channels[c]), c));
   }
 
+  class Reader {
+   public:
+    explicit Reader(const FacePatches& patches) : patches_(patches) {}
+    void begin(std::int32_t face) { face_ = face; }
+    void evaluate(std::int32_t part, const Real* uv, Real* position, Real* du, Real* dv) const {
+      const Patched& surface = patches_.surface_;
+      const auto& patch = surface.patch(face_, part, uv);
+      Weights w{}, wu{}, wv{};
+      surface.table->EvaluateBasis(patch, uv[0], uv[1], w.data(), wu.data(), wv.data());
+      const auto control = surface.table->GetPatchVertices(patch);
+      std::array<Vector<Real>, 3> sums{};
+      for (int k = 0; k < control.size(); ++k) {
+        const auto& point = patches_.points_[static_cast<std::size_t>(control[k])];
+        const auto weight = static_cast<std::size_t>(k);
+        sums[0].AddWithWeight(point, w[weight]);
+        sums[1].AddWithWeight(point, wu[weight]);
+        sums[2].AddWithWeight(point, wv[weight]);
+      }
+      for (std::size_t c = 0; c < 3; ++c)
+        position[c] = sums[0].x[c], du[c] = sums[1].x[c], dv[c] = sums[2].x[c];
+    }
+    void channel(std::size_t number, std::int32_t part, const Real* uv, Real* to) const {
+      const int c = static_cast<int>(number);
+      const Patched& channels = *patches_.channels_;
+      const auto& patch = channels.patch(face_, part, uv);
+      Weights w{};
+      channels.table->template EvaluateBasisFaceVarying<Real>(patch, uv[0], uv[1], w.data(), nullptr, nullptr,
+                                                              nullptr, nullptr, nullptr, c);
+      const auto control = channels.table->GetPatchFVarValues(patch, c);
+      Value<Real> sum{};
+      for (int k = 0; k < control.size(); ++k)
+        sum.AddWithWeight(patches_.values_[number][static_cast<std::size_t>(control[k])],
+                          w[static_cast<std::size_t>(k)]);
+      copy(sum, patches_.mesh_.channels[number], to);
+    }
+
+   private:
+    using Weights = std::array<Real, 20>;  // as many control points as a patch has at most
+    const FacePatches& patches_;
+    std::int32_t face_ = 0;
+  };
+
  private:
-  const Far::PatchTable& table_;
-  const Far::PatchMap& map_;
-  const Far::PtexIndices& ptex_;
-  const std::vector<Vector<Real>>& points_;
-  std::int32_t face_ = 0;
+  const lc_mesh& mesh_;
+  const Patched& surface_;
+  const Patched* const channels_;
+  const std::vector<Vector<Real>> points_;
+  std::vector<std::vector<Value<Real>>> values_;
 };
 
 // What the stencils of all points give, handed out in their order.
 template <class Real>
 class StencilPoints {
  public:
-  StencilPoints(const Far::TopologyRefiner& refiner, const Far::PatchTable& table,
-                const Far::PtexIndices& ptex, const std::vector<Vector<Real>>& control,
+  StencilPoints(const lc_mesh& mesh, const Patched& surface, const Patched* channels,
                 const FacePatterns& patterns)
-      : patterns_(patterns) {
-    using Factory = Far::LimitStencilTableFactoryReal<Real>;
+      : mesh_(mesh), patterns_(patterns) {
     // One location for each point: the table orders its stencils as it is given them, ptex face by ptex face.
     const auto count = static_cast<std::size_t>(patterns.vertices());
     std::vector<Real> s(count), t(count);
@@ -87,22 +205,24 @@ class StencilPoints {
         s[at] = static_cast<Real>(p.i) / static_cast<Real>(pattern->denominator);
         t[at] = static_cast<Real>(p.j) / static_cast<Real>(pattern->denominator);
         auto& location = locations.emplace_back();
-        location.ptexIdx = ptex.GetFaceId(static_cast<int>(f)) + p.part;
+        location.ptexIdx = surface.ptex->GetFaceId(static_cast<int>(f)) + p.part;
         location.numLocations = 1;
         location.s = &s[at];
         location.t = &t[at++];
       }
     }
-    const OpenSubdivErrors errors;
-    const std::unique_ptr<const Far::LimitStencilTableReal<Real>> stencils(
-        Factory::Create(refiner, locations, nullptr, &table));
-    errors.check();
-    // It leaves out, without a word, locations that no patch covers.
-    if (stencils == nullptr || static_cast<std::size_t>(stencils->GetNumStencils()) != count)
-      throw SubjectError(LC_NOT_SUPPORTED, "Far makes no limit stencil of some points of this mesh");
     position_.resize(count), du_.resize(count), dv_.resize(count);
+    const auto control = opensubdiv_points<Real>(mesh);
+    const auto stencils = table(surface, locations, {});
     stencils->UpdateValues(control.data(), position_.data());
     stencils->UpdateDerivs(control.data(), du_.data(), dv_.data());
+    for (unsigned c = 0; c < mesh.channel_count; ++c) {
+      typename Factory::Options options;
+      options.interpolationMode = Factory::INTERPOLATE_FACE_VARYING;
+      options.fvarChannel = c;
+      const auto values = opensubdiv_values<Real>(mesh.channels[c]);
+      table(*channels, locations, options)->UpdateValues(values.data(), values_.emplace_back(count).data());
+    }
   }
 
   // Where the points of one face after another are read.
@@ -120,6 +240,9 @@ class StencilPoints {
       }
       ++next_;
     }
+    void channel(std::size_t c, std::int32_t, const Real*, Real* to) const {
+      copy(points_.values_[c][next_ - 1], points_.mesh_.channels[c], to);
+    }
 
    private:
     const StencilPoints& points_;
@@ -127,9 +250,30 @@ class StencilPoints {
   };
 
  private:
+  using Factory = Far::LimitStencilTableFactoryReal<Real>;
+  static std::unique_ptr<const Far::LimitStencilTableReal<Real>> table(
+      const Patched& patched, const typename Factory::LocationArrayVec& locations,
+      typename Factory::Options options) {
+    const OpenSubdivErrors errors;
+    std::unique_ptr<const Far::LimitStencilTableReal<Real>> stencils(
+        Factory::Create(*patched.refiner, locations, nullptr, patched.table.get(), options));
+    errors.check();
+    // It leaves out, without a word, locations that no patch covers.
+    if (stencils == nullptr || stencils->GetNumStencils() != static_cast<int>(locations.size()))
+      throw SubjectError(LC_NOT_SUPPORTED, "Far makes no limit stencil of some points of this mesh");
+    return stencils;
+  }
+
+  const lc_mesh& mesh_;
   const FacePatterns& patterns_;
   std::vector<Vector<Real>> position_, du_, dv_;
+  std::vector<std::vector<Value<Real>>> values_;
 };
+
+lc_mesh without_channels(lc_mesh mesh) {
+  mesh.channel_count = 0;
+  return mesh;
+}
 
 class FarPatchesSubject {
  public:
@@ -137,29 +281,18 @@ class FarPatchesSubject {
 
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const auto precision = Settings(options).wide ? LC_FLOAT64 : LC_FLOAT32;
-    return {precision, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
+    lc_capabilities result{precision, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
+    result.channel_rules = kAllChannelRules;
+    return result;
   }
 
+  // Channels have patches of their own: where they are refined, too, those of the surface would be others.
   FarPatchesSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
         settings_(options),
-        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh, options))) {
-    const Settings& s = settings_;
-    const OpenSubdivErrors errors;
-    Patches::Options patches(static_cast<unsigned>(s.level));
-    patches.SetEndCapType(s.bspline ? Patches::Options::ENDCAP_BSPLINE_BASIS
-                                    : Patches::Options::ENDCAP_GREGORY_BASIS);
-    // By default a boundary vertex of one face gets the patch of a sharp corner, which is another surface.
-    patches.generateLegacySharpCornerPatches = s.legacy_corners;
-    patches.useInfSharpPatch = s.infinite_creases;
-    patches.useSingleCreasePatch = s.single_crease;
-    s.wide ? patches.SetPatchPrecision<double>() : patches.SetPatchPrecision<float>();
-    refiner_->RefineAdaptive(patches.GetRefineAdaptiveOptions());
-    table_.reset(Patches::Create(*refiner_, patches));
-    errors.check();
-    if (table_ == nullptr) throw SubjectError(LC_FAILED, "OpenSubdiv makes no patches of this mesh");
-    map_ = std::make_unique<Far::PatchMap>(*table_);
-    ptex_ = std::make_unique<Far::PtexIndices>(*refiner_);
+        surface_(without_channels(mesh), boundary_rule(mesh, options), settings_) {
+    if (mesh.channel_count > 0)
+      channels_ = std::make_unique<Patched>(mesh, boundary_rule(mesh, options), settings_);
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
@@ -167,54 +300,21 @@ class FarPatchesSubject {
   }
 
  private:
-  struct Settings {
-    explicit Settings(Options& options)
-        : wide(options.choice("precision", {"float", "double"}) == 1),
-          bspline(options.choice("end-cap", {"gregory", "bspline"}) == 1),
-          legacy_corners(options.choice("corners", {"legacy", "smooth"}) == 0),
-          stencils(options.choice("evaluate", {"patches", "limit-stencils"}) == 1),
-          infinite_creases(options.choice("inf-sharp", {"off", "on"}) == 1),
-          single_crease(options.choice("single-crease", {"off", "on"}) == 1),
-          level(options.integer("level", 2, 1, 10)) {}
-    bool wide, bspline, legacy_corners, stencils, infinite_creases, single_crease;
-    int level;
-  };
-
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
     const FacePatterns patterns(mesh_, request, opensubdiv_triangle);
-    // The points of all levels, then those of the end caps.
-    const auto refined = static_cast<std::size_t>(refiner_->GetNumVerticesTotal());
-    std::vector<Vector<Real>> points(refined + static_cast<std::size_t>(table_->GetNumLocalPoints()));
-    for (std::size_t v = 0; v < static_cast<std::size_t>(mesh_.vertex_count); ++v) {
-      for (std::size_t c = 0; c < 3; ++c) points[v].x[c] = static_cast<Real>(mesh_.positions[3 * v + c]);
-    }
-    if (settings_.stencils) {
-      const StencilPoints<Real> made(*refiner_, *table_, *ptex_, points, patterns);
+    const auto put = [&](const auto& made) {
       tessellate_faces<Real>(mesh_, patterns, request, out,
-                             [&] { return typename StencilPoints<Real>::Reader(made); });
-      return;
-    }
-    const Far::PrimvarRefinerReal<Real> primvars(*refiner_);
-    const Vector<Real>* from = points.data();
-    for (int level = 1; level <= refiner_->GetMaxLevel(); ++level) {
-      Vector<Real>* to =
-          points.data() + (from - points.data()) + refiner_->GetLevel(level - 1).GetNumVertices();
-      primvars.Interpolate(level, from, to);
-      from = to;
-    }
-    if (table_->GetNumLocalPoints() > 0)
-      table_->GetLocalPointStencilTable<Real>()->UpdateValues(points.data(), points.data() + refined);
-    tessellate_faces<Real>(mesh_, patterns, request, out,
-                           [&] { return FacePatches<Real>(*table_, *map_, *ptex_, points); });
+                             [&] { return typename std::decay_t<decltype(made)>::Reader(made); });
+    };
+    settings_.stencils ? put(StencilPoints<Real>(mesh_, surface_, channels_.get(), patterns))
+                       : put(FacePatches<Real>(mesh_, surface_, channels_.get()));
   }
 
   const lc_mesh mesh_;
   const Settings settings_;
-  std::unique_ptr<Far::TopologyRefiner> refiner_;
-  std::unique_ptr<Far::PatchTable> table_;
-  std::unique_ptr<Far::PatchMap> map_;
-  std::unique_ptr<Far::PtexIndices> ptex_;
+  const Patched surface_;
+  std::unique_ptr<const Patched> channels_;
 };
 
 }  // namespace
@@ -224,6 +324,7 @@ extern "C" const lc_subject* lc_subject_opensubdiv_far_patches() {
       "opensubdiv-far-patches", "OpenSubdiv 3.5 Far: adaptive refinement, then a PatchTable evaluated",
       "precision=float|double (default float), level=N of isolation (1 to 10, default 2), "
       "end-cap=gregory|bspline (default gregory), corners=legacy|smooth (default legacy, the library's), "
+      "channels=smooth|linear: their patches (default smooth; linear is the library's), "
       "evaluate=patches|limit-stencils (default patches), inf-sharp=on|off and single-crease=on|off: patches "
       "for edges that stay sharp and for creases of one sharpness (default off, the library's), "
       "boundary=edge|none (default edge; none is the library's: closed meshes only)");

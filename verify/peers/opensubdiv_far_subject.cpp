@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level), then limit
-// positions and tangents (PrimvarRefiner::Limit); channels by InterpolateFaceVarying and LimitFaceVarying. Delivered as the library delivers it; the normal is its
-// first tangent x its second, one for each vertex, on a sharp edge, too. Catmull-Clark's quads are cut along
-// a diagonal. Limit() takes the faces around a vertex for quads without a look: on a mesh of other faces its
+// OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level, or a StencilTable), then
+// limit positions and tangents (PrimvarRefiner::Limit); channels by InterpolateFaceVarying and LimitFaceVarying.
+// Delivered as the library delivers it; the normal is its first tangent x its second, one for each vertex, on a sharp
+// edge, too. Catmull-Clark's quads are cut along a diagonal. Limit() takes the faces around a vertex for quads without a look: on a mesh of other faces its
 // values at depth 0 mean nothing.
 #include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/stencilTable.h>
+#include <opensubdiv/far/stencilTableFactory.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
@@ -45,7 +46,7 @@ class FarSubject {
 
   static lc_capabilities capabilities(Options& options, lc_scheme) {
     const bool wide = options.choice("precision", {"float", "double"}) == 1;
-    (void)bare(options);
+    (void)bare(options), (void)stencils(options);
     lc_capabilities result{
         wide ? LC_FLOAT64 : LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 8, 1, 0, 1};
     result.channel_rules = kAllChannelRules;
@@ -56,6 +57,7 @@ class FarSubject {
       : mesh_(mesh),
         wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64),
         bare_(bare(options)),
+        stencils_(stencils(options)),
         refiner_(make_refiner(mesh)) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
@@ -76,20 +78,12 @@ class FarSubject {
 
  private:
   static bool bare(Options& options) { return options.choice("last-level", {"full", "bare"}) == 1; }
+  static bool stencils(Options& options) { return options.choice("evaluate", {"levels", "stencils"}) == 1; }
 
   template <class Real>
   void run(const lc_request& request, int depth, lc_tessellation& out) const {
-    std::vector<Vector<Real>> points(mesh_.vertex_count);
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      for (std::size_t c = 0; c < 3; ++c) points[v].x[c] = static_cast<Real>(mesh_.positions[3 * v + c]);
-    }
     const Far::PrimvarRefinerReal<Real> primvars(*refiner_);
-    for (int level = 1; level <= depth; ++level) {
-      std::vector<Vector<Real>> next(refiner_->GetLevel(level).GetNumVertices());
-      primvars.Interpolate(level, points, next);
-      points.swap(next);
-    }
-
+    const auto points = refined(primvars, opensubdiv_points<Real>(mesh_), depth, kPositions);
     const Far::TopologyLevel& last = refiner_->GetLevel(depth);
     const bool quads = mesh_.scheme == LC_SCHEME_CATMULL_CLARK;
     std::int64_t triangles = 0;
@@ -122,38 +116,53 @@ class FarSubject {
     int face, k;
   };
 
-  // Each channel level by level, then its limit: of components three at a time.
+  // Points, or values of a channel, of the last level: level by level, or by stencils that skip the levels between.
+  static constexpr int kPositions = -1;
+  template <class Real, class Point>
+  std::vector<Point> refined(const Far::PrimvarRefinerReal<Real>& primvars, std::vector<Point> points,
+                             int depth, int channel) const {
+    const bool positions = channel == kPositions;
+    const auto room = [&](int at) {
+      const Far::TopologyLevel& level = refiner_->GetLevel(at);
+      return std::vector<Point>(
+          static_cast<std::size_t>(positions ? level.GetNumVertices() : level.GetNumFVarValues(channel)));
+    };
+    if (stencils_ && depth > 0) {
+      using Factory = Far::StencilTableFactoryReal<Real>;
+      typename Factory::Options options;
+      options.interpolationMode = positions ? Factory::INTERPOLATE_VERTEX : Factory::INTERPOLATE_FACE_VARYING;
+      options.fvarChannel = static_cast<unsigned>(std::max(0, channel));
+      options.generateIntermediateLevels = false;
+      const std::unique_ptr<const Far::StencilTableReal<Real>> table(Factory::Create(*refiner_, options));
+      std::vector<Point> last = room(depth);
+      if (table == nullptr || table->GetNumStencils() != static_cast<int>(last.size()))
+        throw SubjectError(LC_FAILED, "Far makes no stencil of some point");
+      table->UpdateValues(points.data(), last.data());
+      return last;
+    }
+    for (int level = 1; level <= depth; ++level) {
+      std::vector<Point> next = room(level);
+      positions ? primvars.Interpolate(level, points, next)
+                : primvars.InterpolateFaceVarying(level, points, next, channel);
+      points.swap(next);
+    }
+    return points;
+  }
+
   template <class Real>
   void put_channels(const lc_request& request, int depth, const Far::PrimvarRefinerReal<Real>& primvars,
                     const std::vector<Fan>& fans, lc_tessellation& out) const {
-    const std::span channels(mesh_.channels, static_cast<std::size_t>(mesh_.channel_count));
     auto* to = allocate_channels<Real>(request, mesh_, out);
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      const auto components = static_cast<std::size_t>(channels[c].components);
-      const int channel = static_cast<int>(c);
-      for (std::size_t first = 0; first < components; first += 3) {
-        const std::size_t count = std::min<std::size_t>(3, components - first);
-        std::vector<Vector<Real>> values(static_cast<std::size_t>(channels[c].value_count));
-        for (std::size_t v = 0; v < values.size(); ++v)
-          for (std::size_t k = 0; k < count; ++k)
-            values[v].x[k] = static_cast<Real>(channels[c].values[v * components + first + k]);
-        for (int level = 1; level <= depth; ++level) {
-          std::vector<Vector<Real>> next(
-              static_cast<std::size_t>(refiner_->GetLevel(level).GetNumFVarValues(channel)));
-          primvars.InterpolateFaceVarying(level, values, next, channel);
-          values.swap(next);
-        }
-        std::vector<Vector<Real>> limit(values.size());
-        primvars.LimitFaceVarying(values, limit, channel);
-        for (std::size_t t = 0; t < fans.size(); ++t) {
-          const auto indices = refiner_->GetLevel(depth).GetFaceFVarValues(fans[t].face, channel);
-          for (std::size_t n = 0; const int corner : {0, fans[t].k, fans[t].k + 1}) {
-            const Vector<Real>& value = limit[static_cast<std::size_t>(indices[corner])];
-            std::copy_n(value.x.begin(), count, to + (3 * t + n++) * components + first);
-          }
-        }
+    for (int channel = 0; channel < mesh_.channel_count; ++channel) {
+      const lc_channel& from = mesh_.channels[channel];
+      const auto values = refined(primvars, opensubdiv_values<Real>(from), depth, channel);
+      std::vector<OpenSubdivValue<Real>> limit(values.size());
+      primvars.LimitFaceVarying(values, limit, channel);
+      for (const auto& [face, k] : fans) {
+        const auto indices = refiner_->GetLevel(depth).GetFaceFVarValues(face, channel);
+        for (const int corner : {0, k, k + 1})
+          to = std::copy_n(limit[static_cast<std::size_t>(indices[corner])].x.begin(), from.components, to);
       }
-      to += 3 * fans.size() * components;
     }
   }
 
@@ -217,7 +226,7 @@ class FarSubject {
   bool has_parts(int corners) const { return mesh_.scheme == LC_SCHEME_CATMULL_CLARK && corners != 4; }
 
   const lc_mesh mesh_;
-  const bool wide_, bare_;
+  const bool wide_, bare_, stencils_;
   std::unique_ptr<Far::TopologyRefiner> refiner_;
 };
 
@@ -226,6 +235,8 @@ class FarSubject {
 extern "C" const lc_subject* lc_subject_opensubdiv_far() {
   static const lc_subject subject = make_subject<FarSubject>(
       "opensubdiv-far", "OpenSubdiv 3.5 Far: uniform refinement, then the limit masks",
-      "precision=float|double (default float), last-level=full|bare (default full; bare is the library's)");
+      "precision=float|double (default float), last-level=full|bare (default full; bare is the library's), "
+      "evaluate=levels|stencils: each level from the one before, or the last from the control mesh "
+      "(StencilTable; default levels)");
   return &subject;
 }

@@ -48,14 +48,34 @@ class OpenSubdivErrors {
 };
 
 /// What PrimvarRefiner interpolates.
-template <class Real>
+template <class Real, std::size_t size = 3>
 struct OpenSubdivVector {
-  std::array<Real, 3> x;
+  std::array<Real, size> x;
   void Clear(void* = nullptr) { x = {}; }
   void AddWithWeight(const OpenSubdivVector& v, Real weight) {
-    for (std::size_t c = 0; c < 3; ++c) x[c] += weight * v.x[c];
+    for (std::size_t c = 0; c < size; ++c) x[c] += weight * v.x[c];
   }
 };
+/// A value of a channel: its components, and zeros.
+template <class Real>
+using OpenSubdivValue = OpenSubdivVector<Real, 4>;
+
+template <class Real>
+std::vector<OpenSubdivVector<Real>> opensubdiv_points(const lc_mesh& mesh) {
+  std::vector<OpenSubdivVector<Real>> points(static_cast<std::size_t>(mesh.vertex_count));
+  for (std::size_t v = 0; v < points.size(); ++v)
+    for (std::size_t c = 0; c < 3; ++c) points[v].x[c] = static_cast<Real>(mesh.positions[3 * v + c]);
+  return points;
+}
+template <class Real>
+std::vector<OpenSubdivValue<Real>> opensubdiv_values(const lc_channel& channel) {
+  std::vector<OpenSubdivValue<Real>> values(static_cast<std::size_t>(channel.value_count));
+  const double* component = channel.values;
+  for (auto& value : values)
+    for (std::int32_t k = 0; k < channel.components; ++k)
+      value.x[static_cast<std::size_t>(k)] = static_cast<Real>(*component++);
+  return values;
+}
 
 inline OpenSubdiv::Sdc::SchemeType opensubdiv_scheme(const lc_mesh& mesh) {
   return mesh.scheme == LC_SCHEME_LOOP ? OpenSubdiv::Sdc::SCHEME_LOOP : OpenSubdiv::Sdc::SCHEME_CATMARK;

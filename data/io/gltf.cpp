@@ -325,15 +325,25 @@ class Reader {
   // Values of vertices from `begin` on; those of vertices without any are no numbers.
   void add_texture(std::size_t channel, int accessor, std::size_t begin, std::size_t count) try {
     const Bytes values = bytes(accessor, TINYGLTF_TYPE_VEC2);
-    if (values.component != TINYGLTF_COMPONENT_TYPE_FLOAT || values.count != count)
-      refuse("FILE_UNSUPPORTED", "texture coordinates that are not floats, one pair for each vertex");
+    if (values.count != count)
+      refuse("FILE_UNSUPPORTED", fmt::format("{} texture coordinates for {} vertices", values.count, count));
+    const auto pair = [&](std::size_t k) -> std::array<double, 2> {
+      const auto of = [](const auto& v, double one) { return std::array<double, 2>{v[0] / one, v[1] / one}; };
+      if (values.component == TINYGLTF_COMPONENT_TYPE_FLOAT)
+        return of(number<std::array<float, 2>>(values[k]), 1);
+      if (values.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+        return of(number<std::array<std::uint8_t, 2>>(values[k]), 255);
+      if (values.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+        return of(number<std::array<std::uint16_t, 2>>(values[k]), 65535);
+      refuse("FILE_UNSUPPORTED", "texture coordinates that are no floats, bytes or shorts without a sign");
+    };
     while (soup_.channels.size() <= channel)
       soup_.channels.push_back({.name = fmt::format("TEXCOORD_{}", soup_.channels.size()), .by_value = true});
     std::vector<double>& all = soup_.channels[channel].values;
     all.resize(2 * begin, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t k = 0; k < count; ++k) {
-      const auto value = number<std::array<float, 2>>(values[k]);
-      all.insert(all.end(), {value[0], value[1]});
+      const auto value = pair(k);
+      all.insert(all.end(), value.begin(), value.end());
     }
   } catch (const InputError& refusal) {
     soup_.notes.push_back(fmt::format("TEXCOORD_{} is left out: {}", channel, refusal.what()));

@@ -66,6 +66,7 @@ class ObjReader {
     }
     if (propagates_corners_ && uv_.rule.value_or(kUsualChannelRule) == ChannelRule::kCornersPlus1)
       uv_.rule = ChannelRule::kCornersPlus2;
+    pack_texture();
     if (std::any_of(uv_.corners.begin(), uv_.corners.end(), [](std::int64_t i) { return i != -1; }))
       soup_.channels.push_back(std::move(uv_));
     return std::move(soup_);
@@ -89,15 +90,26 @@ class ObjReader {
     soup_.normals.push_back(normal);
   }
 
-  // u, or u v, or u v w: as many components as the first line has, the others are 0. What is no number makes the
+  // u, or u v, or u v w; components that are not said are 0. What is no number, or one of four and more, makes the
   // coordinates unusable, not the mesh.
   void read_texture() {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> value;
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word())
-      value.push_back(to_double(word).value_or(std::numeric_limits<double>::quiet_NaN()));
-    if (uv_.values.empty()) uv_.components = std::clamp(static_cast<int>(value.size()), 1, 3);
-    value.resize(static_cast<std::size_t>(uv_.components), 0);
+      value.push_back(to_double(word).value_or(kNone));
+    uv_.components = std::max(uv_.components, static_cast<int>(std::min(value.size(), kTexture)));
+    if (value.empty() || value.size() > kTexture) value = {kNone};
+    value.resize(kTexture, 0);
     uv_.values.insert(uv_.values.end(), value.begin(), value.end());
+  }
+
+  // As many components as the longest line has.
+  void pack_texture() {
+    std::vector<double> packed;
+    for (std::size_t i = 0; i < uv_.values.size(); i += kTexture)
+      packed.insert(packed.end(), uv_.values.begin() + static_cast<std::ptrdiff_t>(i),
+                    uv_.values.begin() + static_cast<std::ptrdiff_t>(i) + uv_.components);
+    uv_.values = std::move(packed);
   }
 
   // Three or more of v, v/vt, v//vn, v/vt/vn; indices from 1, or from the latest backwards if negative.
@@ -204,8 +216,8 @@ class ObjReader {
     } else if (name == "facevaryingpropagatecorners" && tag.integers.size() == 1) {
       propagates_corners_ = tag.integers[0] != 0;
     } else if (name.starts_with("facevarying")) {
-      soup_.notes.push_back(
-          fmt::format("line {}: tag {} moves no point, and is read over", scanner_.line(), quoted(name)));
+      soup_.notes.push_back(fmt::format("line {}: tag {} says no rule of a channel, and is read over",
+                                        scanner_.line(), quoted(name)));
     } else {
       scanner_.fail("FILE_UNSUPPORTED", fmt::format("tag {} is not read", quoted(name)));
     }
@@ -228,8 +240,7 @@ class ObjReader {
         scanner_.syntax_error(fmt::format("a corner is v, v/vt, v//vn or v/vt/vn, not {}", quoted(word)));
       }
       if (part == 0) index = *value;
-      if (part == 1 && value)
-        texture = from_zero(*value, uv_.values.size() / static_cast<std::size_t>(uv_.components));
+      if (part == 1 && value) texture = from_zero(*value, uv_.values.size() / kTexture);
       if (part == 2) normal = from_zero(*value, soup_.normals.size());
       if (slash == std::string_view::npos) break;
       parts.remove_prefix(slash + 1);
@@ -247,7 +258,8 @@ class ObjReader {
 
   TextScanner scanner_;
   PolygonSoup soup_;
-  PolygonSoup::SoupChannel uv_{.name = "uv"};
+  static constexpr std::size_t kTexture = 3;  // components of a texture coordinate, at most
+  PolygonSoup::SoupChannel uv_{.name = "uv", .components = 1};
   bool propagates_corners_ = false;
 };
 

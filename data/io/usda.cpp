@@ -124,8 +124,8 @@ class UsdReader {
     const std::int64_t line = words_.next().line;
     std::string_view name, type;
     bool is_relation = false, is_variant = false;
-    while (!words_.next().is("=") && words_.next().line == line && !words_.next().is("}") &&
-           words_.next().kind != UsdToken::Kind::kEnd) {
+    while (!words_.next().is("=") && !words_.next().is("(") && words_.next().line == line &&
+           !words_.next().is("}") && words_.next().kind != UsdToken::Kind::kEnd) {
       const UsdToken token = words_.take();
       if (token.kind == UsdToken::Kind::kMark) {
         if (token.is(";")) return;
@@ -319,6 +319,10 @@ class UsdReader {
     const auto rule = said == values.end()
                           ? std::end(kRules)
                           : std::find(std::begin(kRules), std::end(kRules), said->second.word);
+    if (said != values.end() && rule == std::end(kRules))
+      note(said->second.line,
+           fmt::format("faceVaryingLinearInterpolation {} is none of its rules, and is read over",
+                       io::quoted(said->second.word)));
     const std::size_t vertices = soup_.positions.size() - static_cast<std::size_t>(first_vertex);
     for (const auto& [name, value] : values) {
       if (!name.starts_with("primvars:") || name.ends_with(":indices")) continue;
@@ -331,8 +335,15 @@ class UsdReader {
         std::iota(list.begin(), list.end(), std::int64_t{0});
       const std::string& by = value.interpolation;
       const bool by_vertex = (by.empty() || by == "vertex" || by == "varying") && list.size() == vertices;
-      if (!by_vertex && (!(by.empty() || by == "faceVarying") || list.size() != corners))
+      if (!by_vertex && (!(by.empty() || by == "faceVarying") || list.size() != corners)) {
+        if (!by.empty() && by != "uniform" && by != "constant")
+          note(value.line, fmt::format("{} is read over: it has {} values, for {} vertices and {} corners",
+                                       io::quoted(name), list.size(), vertices, corners));
         continue;  // constant, or one for each face
+      }
+      if (by.empty())
+        note(value.line, fmt::format("{} says no interpolation: it has as many values as there are {}",
+                                     io::quoted(name), by_vertex ? "vertices" : "corners"));
       PolygonSoup::SoupChannel* const to =
           channel_of(name.substr(std::string_view("primvars:").size()), value, !is_indexed);
       if (to == nullptr) continue;

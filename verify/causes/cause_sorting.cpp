@@ -80,6 +80,12 @@ bool is_one_of(const std::string& check, std::initializer_list<std::string_view>
   return std::find(names.begin(), names.end(), check) != names.end();
 }
 
+// Points that are wrong say nothing of the values of channels.
+bool is_of_channels(const std::string& check) {
+  const RowKind* row = row_kind(check);
+  return row != nullptr && row->group == "channels";
+}
+
 CauseKind kind_of(const std::string& check) {
   const RowKind* row = row_kind(check);
   return row != nullptr ? row->cause : CauseKind::kOrder;
@@ -290,6 +296,7 @@ class Sorting {
       const bool follows =
           is_finding(k) &&
           !is_one_of(check, {"recognised", "file-recognised"}) &&  // the reason explains no more
+          !is_of_channels(check) &&
           (own.kind == CauseKind::kOrder || own.kind == CauseKind::kOther ||
            is_one_of(check, {"orientation", "continuity", "file-watertight", "file-orientation"}));
       if (follows && is_finding(reason))

@@ -42,6 +42,11 @@ int print_list(const GenerateArguments& a) {
   return kHeld;
 }
 
+void note_left_out(const data::ControlMesh& mesh, const std::string& file) {
+  if (const std::string lost = data::left_out(mesh, data::io::format_of(file)); !lost.empty())
+    say(stderr, "note: the file has no place for {}\n", lost);
+}
+
 int generate(const GenerateArguments& a) {
   if (a.list || a.stock) return print_list(a);
   if (a.name.empty()) throw CLI::RequiredError("NAME (or --list)");
@@ -52,8 +57,7 @@ int generate(const GenerateArguments& a) {
   data::write_mesh(a.file, mesh, {.ascii_ply = a.ascii});
   say(stderr, "{}\n", scheme_line({chosen}, a.mesh));
   say(stderr, "{}: {} vertices, {} faces\n", a.file, mesh.positions.size(), mesh.faces.size());
-  if (const std::string lost = data::left_out(mesh, data::io::format_of(a.file)); !lost.empty())
-    say(stderr, "note: the file has no place for {}\n", lost);
+  note_left_out(mesh, a.file);
   return kHeld;
 }
 
@@ -142,6 +146,27 @@ void print_sharpness(const data::Sharpness& s) {
   if (const std::string vertices = sharp(s.vertices); !vertices.empty()) line("sharp vertices", vertices);
 }
 
+void print_channels(const std::vector<data::Channel>& channels) {
+  for (const data::Channel& c : channels)
+    line("channel",
+         fmt::format("{}: {} values of {} components, by the rule {}{}", c.name,
+                     c.values.size() / static_cast<std::size_t>(c.components), c.components,
+                     data::kChannelRules[static_cast<std::size_t>(c.rule.value_or(data::kUsualChannelRule))],
+                     c.rule ? "" : ", as none is said"));
+}
+
+nlohmann::ordered_json json_of(const std::vector<data::Channel>& channels) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const data::Channel& c : channels)
+    all.push_back(
+        {{"name", c.name},
+         {"components", c.components},
+         {"values", c.values.size() / static_cast<std::size_t>(c.components)},
+         {"rule", c.rule ? nlohmann::ordered_json(data::kChannelRules[static_cast<std::size_t>(*c.rule)])
+                         : nlohmann::ordered_json()}});
+  return all;
+}
+
 // Triangles of the mesh, or those that its faces would be cut into.
 std::int64_t triangles(const data::Faces& faces) {
   return static_cast<std::int64_t>(faces.corners().size()) - 2 * static_cast<std::int64_t>(faces.size());
@@ -204,7 +229,8 @@ nlohmann::ordered_json to_json(const std::string& file, const MeshScheme& chosen
           {"largest_coordinate", s.largest},
           {"shortest_edge", s.shortest_edge},
           {"float_step", s.float_step},
-          {"edges_lost_in_float", s.edges_lost_in_float}};
+          {"edges_lost_in_float", s.edges_lost_in_float},
+          {"channels", json_of(found.mesh.channels)}};
 }
 
 constexpr std::size_t kMostListed = 20;
@@ -249,6 +275,7 @@ int check(const CheckArguments& a) {
       say("{}\n", scheme_line({chosen}, a.mesh));
       print_summary(soup, summary);
       print_sharpness(found.mesh.sharpness);
+      print_channels(found.mesh.channels);
     }
     for (const std::string& note : found.notes) line("note", note);
     print_faults(a.file, soup, found.faults);
@@ -287,6 +314,7 @@ int repair(const RepairArguments& a) {
   for (const std::string& change : repaired.changes) say("{}\n", change);
   if (repaired.changes.empty()) say("nothing had to be changed\n");
   say("{}: {} vertices, {} faces\n", a.output, mesh.mesh.positions.size(), mesh.mesh.faces.size());
+  note_left_out(mesh.mesh, a.output);
   // As the file that was written has them.
   const data::io::PolygonSoup written = data::io::read_soup(a.output);
   const auto left = data::io::examine(written, {.scheme = a.mesh.scheme}).faults;

@@ -227,6 +227,10 @@ class Repair {
     }
     result.soup.sharp = std::move(tags_);
     result.soup.choices = choices_;
+    if (result.soup.corners == before.corners && result.soup.polygon_end == before.polygon_end)
+      result.soup.channels = before.channels;
+    else
+      note("dropped", static_cast<std::int64_t>(before.channels.size()), "channel", "of other corners");
     const auto same_tag = [](const Tag& a, const Tag& b) {
       return a.a == b.a && a.b == b.b && a.sharpness == b.sharpness;
     };

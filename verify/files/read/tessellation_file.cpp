@@ -29,10 +29,11 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
     return normal >= 0 && normal < static_cast<std::int64_t>(soup.normals.size()) ? normal : -1;
   };
   const auto channel = std::find_if(soup.channels.begin(), soup.channels.end(),
-                                    [](const auto& c) { return c.components == 2; });
+                                    [](const auto& c) { return c.components == 2 || c.components == 3; });
   const bool has_texture = channel != soup.channels.end() && channel->corners.size() == soup.corners.size();
   if (has_texture)
-    for (std::size_t k = 0; k + 1 < channel->values.size(); k += 2)
+    for (std::size_t k = 0; k + 1 < channel->values.size();
+         k += static_cast<std::size_t>(channel->components))
       t.texture.push_back({channel->values[k], channel->values[k + 1]});
   const auto texture_at = [&](std::size_t at) {
     const std::int64_t index = channel->corners[at];

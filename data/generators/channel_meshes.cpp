@@ -136,6 +136,7 @@ ControlMesh with_random_channels(ControlMesh mesh, std::uint64_t seed) {
   }
   colour.name = "colour", colour.components = 4, colour.values = std::move(values);
   mesh = with_random_channel(std::move(mesh), seed);
+  for (double& x : mesh.channels.front().values) x = 8 * x - 8;
   mesh.channels.push_back(std::move(colour));
   return mesh;
 }

@@ -19,7 +19,7 @@ ControlMesh torus_in_a_chart(int around, int across);
 /// Any mesh with charts drawn by chance, some of whose values are joined across their seams: seams that end, values on
 /// both sides of one, and values that meet at a vertex alone. The seed decides the channel's rule, too.
 ControlMesh with_random_channel(ControlMesh mesh, std::uint64_t seed);
-/// The same, and a channel "colour" of four components, with charts and a rule of its own.
+/// The same with values from -8 to 24, and a channel "colour" of four components, with charts and a rule of its own.
 ControlMesh with_random_channels(ControlMesh mesh, std::uint64_t seed);
 
 }  // namespace limitcheck::data

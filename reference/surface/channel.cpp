@@ -8,13 +8,15 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "data/error.h"
+#include "reference/catmull_clark/stam.h"
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
+#include "reference/loop/stam.h"
 #include "reference/point/parameter_exact.h"
 #include "reference/surface/certify.h"
-#include "reference/surface/surface.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -69,6 +71,7 @@ class Steps {
       : near_(mesh.around(face)), scheme_(scheme), triangles_(triangles) {}
 
   const ChannelMesh<N>& near() const { return near_; }
+  bool done() const { return !near_.is_semi_sharp(0); }
   void to(std::size_t child) { near_ = refine_once(near_, scheme_, triangles_).around(child); }
 
  private:
@@ -77,14 +80,14 @@ class Steps {
   data::TriangleRule triangles_;
 };
 
-// Until no semi-sharp tag is left.
+// Until they are done.
 Descent descend(auto& steps, int corner, Rational u, Rational v) {
   Rational factor = 1;
-  if (steps.near().is_semi_sharp(0) && steps.near().topology.faces()[0].size() != 4) {
+  if (!steps.done() && steps.near().topology.faces()[0].size() != 4) {
     steps.to(static_cast<std::size_t>(corner));
     corner = 0;
   }
-  for (; steps.near().is_semi_sharp(0); factor *= 2) {
+  for (; !steps.done(); factor *= 2) {
     const bool right = 2 * u > 1, up = 2 * v > 1;
     u = 2 * u - (right ? 1 : 0), v = 2 * v - (up ? 1 : 0);
     steps.to(up ? (right ? 2 : 3) : (right ? 1 : 0));
@@ -97,7 +100,7 @@ Descent descend_triangles(auto& steps, const Parameter& first, const Parameter& 
   const auto [l1, l2] = exact_parameters(first, second);
   SubFacePath<Rational> path(l1, l2);
   Rational factor = 1;
-  for (; steps.near().is_semi_sharp(0); factor *= 2) steps.to(static_cast<std::size_t>(path.descend()));
+  for (; !steps.done(); factor *= 2) steps.to(static_cast<std::size_t>(path.descend()));
   std::size_t turn = 0;  // to the corner whose weight falls, or rises, along both parameters
   while (path.gradient[turn][0] != path.gradient[turn][1]) ++turn;
   if (path.gradient[turn][0] == 1) factor = -factor;
@@ -221,39 +224,47 @@ ChannelTopology topology_of(const data::ControlMesh& mesh, const data::Channel& 
   return {Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule};
 }
 
-// A mesh whose positions are values.
-data::ControlMesh mesh_of(const ChannelCut& cut, const std::vector<Vec3<double>>& values) {
-  data::ControlMesh mesh;
-  mesh.faces = cut.faces;
-  for (const Vec3<double>& value : values) mesh.positions.push_back({value.x, value.y, value.z});
-  for (const auto& e : cut.tags.edges)
-    mesh.sharpness.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
-  for (const auto& v : cut.tags.vertices)
-    mesh.sharpness.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
-  mesh.sharpness.creasing = cut.tags.creasing, mesh.sharpness.triangles = cut.tags.triangles;
-  return mesh;
+/// The surface of a cut, in double.
+using CutSurface = std::variant<StamEvaluator<double>, catmull_clark::StamEvaluator<double>>;
+CutSurface surface_of(const Settled<double>& part, data::Scheme scheme) {
+  if (scheme == data::Scheme::kCatmullClark)
+    return catmull_clark::StamEvaluator<double>(part.cut.faces, part.values, part.cut.tags);
+  std::vector<Triangle> triangles;
+  for (std::size_t f = 0; f < part.cut.faces.size(); ++f) {
+    const auto corners = part.cut.faces[f];
+    triangles.push_back({corners[0], corners[1], corners[2]});
+  }
+  return StamEvaluator<double>(part.values, triangles, Weights::kLoop, part.cut.tags);
+}
+SurfacePoint<double> evaluate_on(const CutSurface& surface, int face, int corner, double u, double v) {
+  if (const auto* loop = std::get_if<StamEvaluator<double>>(&surface))
+    return loop->evaluate(face, u, v, Derivatives::kFirst);
+  return std::get<catmull_clark::StamEvaluator<double>>(surface).evaluate(face, corner, u, v,
+                                                                          Derivatives::kFirst);
 }
 
-/// What is near a part of a face, and its cut if no semi-sharp tag is left.
+/// What is near a part of a face, and its cut's surface if that is asked for.
 struct Near {
-  explicit Near(ChannelMesh<double> of) : mesh(std::move(of)) {}
+  Near(ChannelMesh<double> of, data::TriangleRule triangles)
+      : mesh(std::move(of)), has_cut(cut_and_hold(mesh, triangles).is_exact) {}
   ChannelMesh<double> mesh;
+  bool has_cut;
   std::map<std::size_t, std::unique_ptr<Near>> finer{};
-  data::ControlMesh cut{};
-  std::optional<Surface> surface{};
+  std::optional<CutSurface> surface{};
 };
 
-/// As Steps, of which each is made once.
+/// As Steps, of which each is made once, until the cut is exact.
 struct KeptSteps {
   Near* at;
   data::Scheme scheme;
   data::TriangleRule triangles;
 
   const ChannelMesh<double>& near() const { return at->mesh; }
+  bool done() const { return at->has_cut || !at->mesh.is_semi_sharp(0); }
   void to(std::size_t child) {
     std::unique_ptr<Near>& next = at->finer[child];
     if (next == nullptr)
-      next = std::make_unique<Near>(refine_once(at->mesh, scheme, triangles).around(child));
+      next = std::make_unique<Near>(refine_once(at->mesh, scheme, triangles).around(child), triangles);
     at = next.get();
   }
 };
@@ -269,8 +280,7 @@ struct ChannelSurface::Data {
   data::ChannelRule rule;
   data::TriangleRule triangles;
   ChannelMesh<double> mesh;
-  data::ControlMesh cut{};           // its positions are the values
-  std::optional<Surface> surface{};  // of the cut; none by the rule `all`, and where no cut is exact
+  std::optional<CutSurface> surface{};  // none by the rule `all`, and where no cut is exact
   // Where none is: what is near each face that was asked for.
   std::mutex mutex{};
   std::map<std::size_t, Near> near{};
@@ -280,18 +290,15 @@ struct ChannelSurface::Data {
   SurfacePoint<double> by_steps(std::size_t face, int corner, double u, double v) {
     std::unique_lock lock(mutex);
     auto found = near.find(face);
-    if (found == near.end()) found = near.emplace(face, mesh.around(face)).first;
+    if (found == near.end()) found = near.emplace(face, Near(mesh.around(face), triangles)).first;
     KeptSteps steps{&found->second, scheme, triangles};
     const Descent at =
         is_loop() ? descend_triangles(steps, u, v) : descend(steps, corner, Rational(u), Rational(v));
-    if (!steps.at->surface) {
-      const Settled<double> part = settled(steps.near(), triangles, at);
-      steps.at->cut = mesh_of(part.cut, part.values);
-      steps.at->surface.emplace(steps.at->cut, scheme);
-    }
+    if (!steps.at->surface)
+      steps.at->surface.emplace(surface_of(settled(steps.near(), triangles, at), scheme));
     lock.unlock();
-    SurfacePoint<double> point = steps.at->surface->evaluate(
-        0, at.corner, number_from<double>(at.u), number_from<double>(at.v), Derivatives::kFirst);
+    SurfacePoint<double> point =
+        evaluate_on(*steps.at->surface, 0, at.corner, number_from<double>(at.u), number_from<double>(at.v));
     scale_derivatives(point, number_from<double>(at.factor));
     return point;
   }
@@ -305,25 +312,21 @@ ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channe
   for (std::size_t c = 0; c < values.size(); ++c)
     for (int k = 0; k < std::min(channel.components, 3); ++k)
       (k == 0 ? values[c].x : k == 1 ? values[c].y : values[c].z) = channel.at(c, k);
-  data_ = std::make_unique<Data>(
-      scheme, rule, mesh.sharpness.triangles,
-      ChannelMesh<double>(topology_of(mesh, channel, rule), std::move(values)));
+  data_ = std::make_unique<Data>(scheme, rule, mesh.sharpness.triangles,
+                                 ChannelMesh<double>(topology_of(mesh, channel, rule), std::move(values)));
   if (rule == data::ChannelRule::kAll) return;
-  const ChannelCut cut = cut_and_hold(data_->mesh, mesh.sharpness.triangles);
-  if (!cut.is_exact) return;
-  data_->cut = mesh_of(cut, values_of(cut, data_->mesh.values));
-  data_->surface.emplace(data_->cut, scheme);
+  const Settled<double> whole = settled(data_->mesh, mesh.sharpness.triangles, {0, 0, 0, 1});
+  if (whole.cut.is_exact) data_->surface.emplace(surface_of(whole, scheme));
 }
 
 ChannelSurface::~ChannelSurface() = default;
 
 SurfacePoint<double> ChannelSurface::evaluate(int face, int corner, double u, double v) const {
-  if (data_->surface) return data_->surface->evaluate(face, corner, u, v, Derivatives::kFirst);
+  if (data_->surface) return evaluate_on(*data_->surface, face, corner, u, v);
   const auto f = static_cast<std::size_t>(face);
   if (data_->rule != data::ChannelRule::kAll) return data_->by_steps(f, corner, u, v);
   const data::Faces& faces = data_->mesh.topology.faces();
-  const auto first =
-      data_->mesh.values.begin() + static_cast<std::ptrdiff_t>(faces.first_corner(f));
+  const auto first = data_->mesh.values.begin() + static_cast<std::ptrdiff_t>(faces.first_corner(f));
   const std::vector<Vec3<double>> values(first, first + static_cast<std::ptrdiff_t>(faces[f].size()));
   const std::vector<Vec3<double>> c = linear_corners(values, data_->is_loop(), corner);
   const Vec3<double> along = c[1] - c[0], across = c.back() - c[0];

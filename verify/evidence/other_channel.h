@@ -36,14 +36,10 @@ inline data::Channel without_seams(const data::ControlMesh& mesh, data::Channel 
 
 /// A sentence that names the channels by each of which all but a hundredth of the values are right: of another rule, smooth
 /// across seams, with components exchanged or counted from the other end. Empty if there is none.
-///   good   how many of `count` values are right by a channel and a rule
-template <class Good>
-std::string other_channels(const data::ControlMesh& mesh, const data::Channel& asked, std::size_t count,
-                           Good&& good) {
+///   fits   whether they are, by a channel and a rule
+template <class Fits>
+std::string other_channels(const data::ControlMesh& mesh, const data::Channel& asked, Fits&& fits) {
   const data::ChannelRule rule = asked.rule.value_or(data::kUsualChannelRule);
-  const auto fits = [&](const data::Channel& other, data::ChannelRule by_rule) {
-    return good(other, by_rule) * 100 >= static_cast<std::int64_t>(count) * 99;
-  };
   std::string rules;
   bool several = false;
   for (std::size_t k = 0; k < std::size(data::kChannelRules); ++k) {

@@ -121,10 +121,10 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
     r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
   }
   if (s.bad > 0)
-    say(r, other_channels(e.control, *channel, corners.size(),
-                          [&](const data::Channel& other, ChannelRule by_rule) {
-                            return judged(e, corners, other, by_rule, diagonal).good;
-                          }));
+    say(r, other_channels(e.control, *channel, [&](const data::Channel& other, ChannelRule by_rule) {
+          return judged(e, corners, other, by_rule, diagonal).good * 100 >=
+                 static_cast<std::int64_t>(corners.size()) * 99;
+        }));
   if (without > 0) {
     r.status = Status::kFinding;
     r.bad += without, r.of += without;

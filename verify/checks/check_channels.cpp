@@ -141,19 +141,20 @@ class Part {
     for (const Place& p : places) all.push_back(evaluate(surface, p));
     return all;
   }
-  // Whether all but a hundredth of the corners are those of another channel. Most are seen not to be at a few of them.
-  bool fits(const Corners& corners, const data::Channel& channel, data::ChannelRule by_rule) const {
+  // Whether another channel explains what is wrong. Most are seen not to at a few corners.
+  bool fits(const Corners& corners, const data::Channel& channel, data::ChannelRule by_rule,
+            std::int64_t wrong) const {
     const reference::ChannelSurface surface(e_.mesh, channel, by_rule, e_.lattice.scheme());
     std::vector<std::optional<Point>> known(corners.places.size());
     const std::size_t count = corners.all.size(), stride = count / 97 + 1;
-    std::size_t bad = 0;
+    std::int64_t bad = 0;
     for (std::size_t first = 0; first < stride; ++first)
       for (std::size_t c = first; c < count; c += stride) {
         const Corner& corner = corners.all[c];
         std::optional<Point>& point = known[corner.at];
         if (!point) point = evaluate(surface, corners.places[corner.at]);
         const double off = error(got(corner), *point);
-        if (!(off >= 0 && off <= bound()) && ++bad * 100 > count) return false;
+        if (!(off >= 0 && off <= bound()) && !explains(++bad, wrong, std::ssize(corners.all))) return false;
       }
     return true;
   }
@@ -339,9 +340,9 @@ std::vector<Result> check_channels(const Evidence& e) {
       not_finite += !is_finite(part.got(c).value);
       without += !expected[c.at].has_derivatives;
     }
-    if (of_values.add(expected) > 0 && said.empty())
+    if (const std::int64_t wrong = of_values.add(expected); wrong > 0 && said.empty())
       said = other_channels(e.mesh, part.channel(), [&](const data::Channel& other, data::ChannelRule rule) {
-        return part.fits(corners, other, rule);
+        return part.fits(corners, other, rule, wrong);
       });
     if (differentiates) of_derivatives.add(expected);
   }

@@ -34,9 +34,15 @@ inline data::Channel without_seams(const data::ControlMesh& mesh, data::Channel 
   return channel;
 }
 
-/// A sentence that names the channels by each of which all but a hundredth of the values are right: of another rule, smooth
-/// across seams, with components exchanged or counted from the other end. Empty if there is none.
-///   fits   whether they are, by a channel and a rule
+/// Whether a channel explains what is wrong by the one that was asked for: by it all but a hundredth of all values are
+/// right, and at least half of those that are not right by the other.
+inline bool explains(std::int64_t bad, std::int64_t wrong, std::int64_t count) {
+  return bad * 100 <= count && bad * 2 <= wrong;
+}
+
+/// A sentence that names the channels that explain what is wrong: of another rule, smooth across seams, with components
+/// exchanged or counted from the other end. Empty if there is none.
+///   fits   whether a channel by a rule does
 template <class Fits>
 std::string other_channels(const data::ControlMesh& mesh, const data::Channel& asked, Fits&& fits) {
   const data::ChannelRule rule = asked.rule.value_or(data::kUsualChannelRule);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "data/io/gltf.h"
 #include "reference/surface/channel.h"
@@ -51,6 +50,7 @@ std::vector<TexturedCorner> textured_corners(const FileEvidence& e, bool flipped
         continue;
       }
       Uv got = t.texture[static_cast<std::size_t>(index)];
+      if (!std::isfinite(got[0]) || !std::isfinite(got[1])) continue;  // `file-finite` says so
       if (flipped) got[1] = 1 - got[1];
       const FacePoint at{placed.face, placed.l[c]};
       corners.push_back({t.triangles[i][c], got, e.surface.surface().control_point(at), slack_of(e, at)});
@@ -77,8 +77,7 @@ Judged judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
     // Where derivatives grow towards a vertex, they say nothing of what is within reach: the slack is a quarter then.
     const double speed = std::hypot(std::hypot(p.d1.x, p.d1.y), std::hypot(p.d2.x, p.d2.y));
     const double excused = p.first_exist ? speed * c.slack : .25 * diagonal;
-    result.error[k] =
-        std::isfinite(off) ? std::max(0., off - excused) / diagonal : std::numeric_limits<double>::infinity();
+    result.error[k] = std::max(0., off - excused) / diagonal;
   });
   result.good =
       std::count_if(result.error.begin(), result.error.end(), [&](double x) { return x <= e.tolerance; });
@@ -88,24 +87,28 @@ Judged judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
 }  // namespace
 
 std::vector<Result> check_file_channel(const FileEvidence& e) {
-  const auto channel = std::find_if(e.control.channels.begin(), e.control.channels.end(),
-                                    [](const data::Channel& c) { return c.components == 2; });
-  if (channel == e.control.channels.end()) return {};
+  const auto is_texture = [](const data::Channel& c) { return c.components == 2 || c.components == 3; };
+  const auto& channels = e.control.channels;
+  const auto first = std::find_if(channels.begin(), channels.end(), is_texture);
+  if (first == channels.end()) return {};
+  const data::Channel channel = first->some(0, 2);
   Result r = e.result("file-channel", "diagonal of the channel", e.tolerance);
   if (lacks(e.tessellation.corner_texture, "texture coordinates", r)) return {r};
-  const ChannelRule rule = channel->rule.value_or(data::kUsualChannelRule);
-  double low[2] = {channel->values[0], channel->values[1]}, high[2] = {low[0], low[1]};
-  for (std::size_t i = 0; i < channel->values.size(); ++i) {
-    low[i % 2] = std::min(low[i % 2], channel->values[i]);
-    high[i % 2] = std::max(high[i % 2], channel->values[i]);
+  const ChannelRule rule = channel.rule.value_or(data::kUsualChannelRule);
+  double low[2] = {channel.values[0], channel.values[1]}, high[2] = {low[0], low[1]}, largest = 0;
+  for (std::size_t i = 0; i < channel.values.size(); ++i) {
+    low[i % 2] = std::min(low[i % 2], channel.values[i]);
+    high[i % 2] = std::max(high[i % 2], channel.values[i]);
+    largest = std::max(largest, std::abs(channel.values[i]));
   }
-  const double diagonal = std::max(std::hypot(high[0] - low[0], high[1] - low[1]), 1e-300);
+  double diagonal = std::hypot(high[0] - low[0], high[1] - low[1]);
+  if (!(diagonal > 0)) diagonal = largest > 0 ? largest : 1;  // of a constant channel
 
   // glTF counts the second coordinate from the top of the picture, all others from its foot.
   const bool flipped = data::io::is_gltf(e.tessellation.name) != data::io::is_gltf(e.control_name);
   std::int64_t without = 0;
   const std::vector<TexturedCorner> corners = textured_corners(e, flipped, without);
-  const Judged found = judged(e, corners, *channel, rule, diagonal);
+  const Judged found = judged(e, corners, channel, rule, diagonal);
   const Statistics s = summarise(found.error, e.tolerance);
   take(r, s);
   r.decades = decades(found.error);
@@ -114,17 +117,19 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
     r.witness = e.at_vertex(corners[at].vertex);
     r.witness->face = corners[at].at.face;
     r.witness->corner = corners[at].at.corner;
-    name_channel(*r.witness, *channel);
+    name_channel(*r.witness, channel);
     r.witness->l1 = fmt::format("{}", corners[at].at.first);
     r.witness->l2 = fmt::format("{}", corners[at].at.second);
     r.witness->expected = {found.expected[at].begin(), found.expected[at].end()};
     r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
   }
   if (s.bad > 0)
-    say(r, other_channels(e.control, *channel, [&](const data::Channel& other, ChannelRule by_rule) {
-          return judged(e, corners, other, by_rule, diagonal).good * 100 >=
-                 static_cast<std::int64_t>(corners.size()) * 99;
+    say(r, other_channels(e.control, channel, [&](const data::Channel& other, ChannelRule by_rule) {
+          const auto count = static_cast<std::int64_t>(corners.size());
+          return explains(count - judged(e, corners, other, by_rule, diagonal).good, s.bad, count);
         }));
+  if (std::count_if(channels.begin(), channels.end(), is_texture) > 1)
+    say(r, fmt::format("of the control mesh's channels only {} was compared", channel.name));
   if (without > 0) {
     r.status = Status::kFinding;
     r.bad += without, r.of += without;

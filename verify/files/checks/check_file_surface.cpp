@@ -197,6 +197,15 @@ std::vector<Result> check_file_finite(const FileEvidence& e) {
   const FileTessellation& t = e.tessellation;
   for (std::size_t v = 0; v < t.positions.size(); ++v) look(t.positions[v], static_cast<std::int32_t>(v));
   for (const auto& n : t.normals) look(n.direction, n.vertex);
+  std::vector<bool> seen(t.texture.size());
+  for (std::size_t i = 0; i < t.corner_texture.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int32_t index = t.corner_texture[i][c];
+      if (index < 0 || seen[static_cast<std::size_t>(index)]) continue;
+      seen[static_cast<std::size_t>(index)] = true;
+      const auto& uv = t.texture[static_cast<std::size_t>(index)];
+      look({uv[0], uv[1], 0}, t.triangles[i][c]);
+    }
   return {r};
 }
 

@@ -270,6 +270,25 @@ TEST_F(Blender, PutsItsPointsOnTheSurfaceWithSharpEdges) {
   RecordProperty("worst_distance_in_diagonals", std::to_string(worst * 1e7) + "e-7");
 }
 
+// It refines them by OpenSubdiv's Far, whose faults are in verify/peers/findings/opensubdiv-channels.md.
+TEST_F(Blender, PutsTextureCoordinatesWhereFarHasThem) {
+  const auto judged = [&](const char* name) {
+    EXPECT_EQ(subdivide(name), 0) << name;
+    const Result r = test::row(test::audit(data::read_mesh(cage(name)), read_tessellation(out_),
+                                           {.scheme = data::Scheme::kCatmullClark}),
+                               "file-channel");
+    EXPECT_GT(r.of, 300) << name;
+    return r;
+  };
+  for (const char* name : {"channel-straight-seam.obj", "channel-boundaries.obj",
+                           "channel-infinite-and-semi.obj", "channel-all-triangle.obj"})
+    EXPECT_EQ(judged(name).status, Status::kHeld) << name;
+  for (const auto& [name, least] : {std::pair{"channel-bow-tie.obj", .03},
+                                    {"channel-dependent-seam.obj", .004},
+                                    {"channel-dependent-vertex.obj", .01}})
+    EXPECT_GE(judged(name).worst.value_or(0), least) << name;
+}
+
 TEST_F(Blender, HasNoChaikinCreasing) {
   EXPECT_EQ(subdivide("chaikin-edge.obj"), 3);
 }

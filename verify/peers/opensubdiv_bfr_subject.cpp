@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // OpenSubdiv Bfr: each face by itself, its limit surface made (InitVertexSurface, for channels
-// InitFaceVaryingSurface), evaluated point by point, and forgotten: the streaming use, nearest to what the paper does. The points are those of the
-// library's uniform Tessellation of a triangle; on Catmull-Clark's faces ours, because the library's of a
-// pentagon are not those of its refinement.
+// InitFaceVaryingSurface), evaluated point by point, and forgotten: the streaming use, nearest to what the
+// paper does. The points are those of the library's uniform Tessellation of a triangle; on Catmull-Clark's
+// faces ours, because the library's of a pentagon are not those of its refinement.
 #include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 
@@ -10,7 +10,6 @@
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -32,20 +31,21 @@ class FaceSurface {
  public:
   // Points or values of the control mesh, and their coordinates.
   struct Control {
+    const Factory& factory;
     int size;
     std::vector<Real> values;
   };
 
   //   control   of the mesh, and of each channel
-  FaceSurface(const Factory& factory, const std::vector<Control>& control)
-      : factory_(factory), control_(control), surfaces_(control.size()), points_(control.size()) {}
+  explicit FaceSurface(const std::vector<Control>& control)
+      : control_(control), surfaces_(control.size()), points_(control.size()) {}
 
   void begin(std::int32_t face) {
     const OpenSubdivErrors errors;
     for (std::size_t k = 0; k < control_.size(); ++k) {
       Bfr::Surface<Real>& surface = surfaces_[k];
-      if (!(k == 0 ? factory_.InitVertexSurface(face, &surface)
-                   : factory_.InitFaceVaryingSurface(face, &surface, static_cast<Factory::FVarID>(k - 1))))
+      if (!(k == 0 ? control_[k].factory.InitVertexSurface(face, &surface)
+                   : control_[k].factory.InitFaceVaryingSurface(face, &surface, 0)))
         throw SubjectError(LC_NOT_SUPPORTED, "Bfr has no limit surface for face " + std::to_string(face));
       errors.check();
       const int size = control_[k].size;
@@ -70,7 +70,6 @@ class FaceSurface {
     return of_face;
   }
 
-  const Factory& factory_;
   const std::vector<Control>& control_;
   std::vector<Bfr::Surface<Real>> surfaces_;
   std::vector<std::vector<Real>> points_;
@@ -90,13 +89,15 @@ class BfrSubject {
   }
 
   BfrSubject(const lc_mesh& mesh, Options& options)
-      : mesh_(mesh),
-        wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64),
-        refiner_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh, options))) {
+      : mesh_(mesh), wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64) {
     Factory::Options level;
     if (const int given = approx_level(options); given >= 0)
       level.SetApproxLevelSmooth(given).SetApproxLevelSharp(given);
-    factory_ = std::make_unique<Factory>(*refiner_, level);
+    for (std::int64_t c = kNoChannel; c < mesh.channel_count; ++c) {
+      refiners_.push_back(
+          make_refiner(with_channel(mesh, c), opensubdiv_scheme(mesh), boundary_rule(mesh, options)));
+      factories_.push_back(std::make_unique<Factory>(*refiners_.back(), level));
+    }
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
@@ -110,18 +111,20 @@ class BfrSubject {
   template <class Real>
   void run(const lc_request& request, lc_tessellation& out) const {
     std::vector<typename FaceSurface<Real>::Control> control;
-    control.push_back({3, {mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count}});
-    for (const lc_channel& c : std::span(mesh_.channels, static_cast<std::size_t>(mesh_.channel_count)))
-      control.push_back({c.components, {c.values, c.values + c.components * c.value_count}});
+    control.push_back({*factories_[0], 3, {mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count}});
+    for (std::size_t k = 1; k < factories_.size(); ++k) {
+      const lc_channel& c = mesh_.channels[k - 1];
+      control.push_back({*factories_[k], c.components, {c.values, c.values + c.components * c.value_count}});
+    }
     const FacePatterns patterns(mesh_, request, opensubdiv_triangle);
-    tessellate_faces<Real>(mesh_, patterns, request, out,
-                           [&] { return FaceSurface<Real>(*factory_, control); });
+    tessellate_faces<Real>(mesh_, patterns, request, out, [&] { return FaceSurface<Real>(control); });
   }
 
   const lc_mesh mesh_;
   const bool wide_;
-  std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> refiner_;
-  std::unique_ptr<Factory> factory_;
+  // Of the surface, and of each channel.
+  std::vector<std::unique_ptr<OpenSubdiv::Far::TopologyRefiner>> refiners_;
+  std::vector<std::unique_ptr<Factory>> factories_;
 };
 
 }  // namespace

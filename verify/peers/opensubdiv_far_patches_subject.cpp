@@ -45,7 +45,7 @@ struct Settings {
   int level;
 };
 
-// A mesh refined where it is irregular, or one of its channels is, and the patches of all that.
+// A mesh refined where it is irregular, or its channel is, and the patches of both.
 struct Patched {
   Patched(const lc_mesh& mesh, OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary, const Settings& s)
       : refiner(make_refiner(mesh, opensubdiv_scheme(mesh), boundary)) {
@@ -86,19 +86,19 @@ struct Patched {
     return points;
   }
   template <class Real>
-  std::vector<Value<Real>> all(std::vector<Value<Real>> values, int channel) const {
-    const auto refined = static_cast<std::size_t>(refiner->GetNumFVarValuesTotal(channel));
-    values.resize(refined + static_cast<std::size_t>(table->GetNumLocalPointsFaceVarying(channel)));
+  std::vector<Value<Real>> all(std::vector<Value<Real>> values) const {
+    const auto refined = static_cast<std::size_t>(refiner->GetNumFVarValuesTotal());
+    values.resize(refined + static_cast<std::size_t>(table->GetNumLocalPointsFaceVarying()));
     const Far::PrimvarRefinerReal<Real> primvars(*refiner);
     Value<Real>* from = values.data();
     for (int level = 1; level <= refiner->GetMaxLevel(); ++level) {
-      Value<Real>* const to = from + refiner->GetLevel(level - 1).GetNumFVarValues(channel);
-      primvars.InterpolateFaceVarying(level, from, to, channel);
+      Value<Real>* const to = from + refiner->GetLevel(level - 1).GetNumFVarValues();
+      primvars.InterpolateFaceVarying(level, from, to);
       from = to;
     }
     if (values.size() > refined)
-      table->GetLocalPointFaceVaryingStencilTable<Real>(channel)->UpdateValues(values.data(),
-                                                                               values.data() + refined);
+      table->GetLocalPointFaceVaryingStencilTable<Real>()->UpdateValues(values.data(),
+                                                                        values.data() + refined);
     return values;
   }
 
@@ -127,13 +127,13 @@ void copy(const Value<Real>& value, const lc_channel& channel, Real* to) {
 template <class Real>
 class FacePatches {
  public:
-  FacePatches(const lc_mesh& mesh, const Patched& surface, const Patched* channels)
+  FacePatches(const lc_mesh& mesh, const Patched& surface, const std::vector<Patched>& channels)
       : mesh_(mesh),
         surface_(surface),
         channels_(channels),
         points_(surface.all<Real>(opensubdiv_points<Real>(mesh))) {
-    for (int c = 0; c < mesh.channel_count; ++c)
-      values_.push_back(channels->all<Real>(opensubdiv_values<Real>(mesh.channels[c]), c));
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      values_.push_back(channels[c].all<Real>(opensubdiv_values<Real>(mesh.channels[c])));
   }
 
   class Reader {
@@ -158,13 +158,11 @@ class FacePatches {
         position[c] = sums[0].x[c], du[c] = sums[1].x[c], dv[c] = sums[2].x[c];
     }
     void channel(std::size_t number, std::int32_t part, const Real* uv, Real* to) const {
-      const int c = static_cast<int>(number);
-      const Patched& channels = *patches_.channels_;
-      const auto& patch = channels.patch(face_, part, uv);
+      const Patched& channel = patches_.channels_[number];
+      const auto& patch = channel.patch(face_, part, uv);
       Weights w{};
-      channels.table->template EvaluateBasisFaceVarying<Real>(patch, uv[0], uv[1], w.data(), nullptr, nullptr,
-                                                              nullptr, nullptr, nullptr, c);
-      const auto control = channels.table->GetPatchFVarValues(patch, c);
+      channel.table->EvaluateBasisFaceVarying(patch, uv[0], uv[1], w.data());
+      const auto control = channel.table->GetPatchFVarValues(patch);
       Value<Real> sum{};
       for (int k = 0; k < control.size(); ++k)
         sum.AddWithWeight(patches_.values_[number][static_cast<std::size_t>(control[k])],
@@ -181,7 +179,7 @@ class FacePatches {
  private:
   const lc_mesh& mesh_;
   const Patched& surface_;
-  const Patched* const channels_;
+  const std::vector<Patched>& channels_;
   const std::vector<Vector<Real>> points_;
   std::vector<std::vector<Value<Real>>> values_;
 };
@@ -190,7 +188,7 @@ class FacePatches {
 template <class Real>
 class StencilPoints {
  public:
-  StencilPoints(const lc_mesh& mesh, const Patched& surface, const Patched* channels,
+  StencilPoints(const lc_mesh& mesh, const Patched& surface, const std::vector<Patched>& channels,
                 const FacePatterns& patterns)
       : mesh_(mesh), patterns_(patterns) {
     // One location for each point: the table orders its stencils as it is given them, ptex face by ptex face.
@@ -216,12 +214,11 @@ class StencilPoints {
     const auto stencils = table(surface, locations, {});
     stencils->UpdateValues(control.data(), position_.data());
     stencils->UpdateDerivs(control.data(), du_.data(), dv_.data());
-    for (unsigned c = 0; c < mesh.channel_count; ++c) {
-      typename Factory::Options options;
-      options.interpolationMode = Factory::INTERPOLATE_FACE_VARYING;
-      options.fvarChannel = c;
+    typename Factory::Options options;
+    options.interpolationMode = Factory::INTERPOLATE_FACE_VARYING;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
       const auto values = opensubdiv_values<Real>(mesh.channels[c]);
-      table(*channels, locations, options)->UpdateValues(values.data(), values_.emplace_back(count).data());
+      table(channels[c], locations, options)->UpdateValues(values.data(), values_.emplace_back(count).data());
     }
   }
 
@@ -270,11 +267,6 @@ class StencilPoints {
   std::vector<std::vector<Value<Real>>> values_;
 };
 
-lc_mesh without_channels(lc_mesh mesh) {
-  mesh.channel_count = 0;
-  return mesh;
-}
-
 class FarPatchesSubject {
  public:
   static constexpr std::int32_t kSharp = kOpenSubdivSharp;
@@ -290,9 +282,9 @@ class FarPatchesSubject {
   FarPatchesSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
         settings_(options),
-        surface_(without_channels(mesh), boundary_rule(mesh, options), settings_) {
-    if (mesh.channel_count > 0)
-      channels_ = std::make_unique<Patched>(mesh, boundary_rule(mesh, options), settings_);
+        surface_(with_channel(mesh, kNoChannel), boundary_rule(mesh, options), settings_) {
+    for (std::int64_t c = 0; c < mesh.channel_count; ++c)
+      channels_.emplace_back(with_channel(mesh, c), boundary_rule(mesh, options), settings_);
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
@@ -307,14 +299,14 @@ class FarPatchesSubject {
       tessellate_faces<Real>(mesh_, patterns, request, out,
                              [&] { return typename std::decay_t<decltype(made)>::Reader(made); });
     };
-    settings_.stencils ? put(StencilPoints<Real>(mesh_, surface_, channels_.get(), patterns))
-                       : put(FacePatches<Real>(mesh_, surface_, channels_.get()));
+    settings_.stencils ? put(StencilPoints<Real>(mesh_, surface_, channels_, patterns))
+                       : put(FacePatches<Real>(mesh_, surface_, channels_));
   }
 
   const lc_mesh mesh_;
   const Settings settings_;
   const Patched surface_;
-  std::unique_ptr<const Patched> channels_;
+  std::vector<Patched> channels_;
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
@@ -58,18 +59,14 @@ class FarSubject {
         wide_(capabilities(options, mesh.scheme).precision == LC_FLOAT64),
         bare_(bare(options)),
         stencils_(stencils(options)),
-        refiner_(make_refiner(mesh)) {}
+        refiner_(make_refiner(with_channel(mesh, kNoChannel))) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const int depth = uniform_depth(request, mesh_);
     refuse_too_many_triangles(mesh_, depth);
     const OpenSubdivErrors errors;
     refiner_->Unrefine();
-    // Without the full topology of the last level, which is the library's default, Limit() returns and leaves
-    // its output as it was.
-    Far::TopologyRefiner::UniformOptions uniform(depth);
-    uniform.fullTopologyInLastLevel = !bare_;
-    refiner_->RefineUniform(uniform);
+    refine(*refiner_, depth);
     errors.check();
     wide_ ? run<double>(request, depth, out) : run<float>(request, depth, out);
     if (!bare_) errors.check();  // with `bare`, what Limit() says is told as what it delivers: nothing
@@ -80,10 +77,18 @@ class FarSubject {
   static bool bare(Options& options) { return options.choice("last-level", {"full", "bare"}) == 1; }
   static bool stencils(Options& options) { return options.choice("evaluate", {"levels", "stencils"}) == 1; }
 
+  // Without the full topology of the last level, which is the library's default, Limit() returns and leaves its
+  // output as it was.
+  void refine(Far::TopologyRefiner& refiner, int depth) const {
+    Far::TopologyRefiner::UniformOptions uniform(depth);
+    uniform.fullTopologyInLastLevel = !bare_;
+    refiner.RefineUniform(uniform);
+  }
+
   template <class Real>
   void run(const lc_request& request, int depth, lc_tessellation& out) const {
     const Far::PrimvarRefinerReal<Real> primvars(*refiner_);
-    const auto points = refined(primvars, opensubdiv_points<Real>(mesh_), depth, kPositions);
+    const auto points = refined<Real>(*refiner_, opensubdiv_points<Real>(mesh_), depth);
     const Far::TopologyLevel& last = refiner_->GetLevel(depth);
     const bool quads = mesh_.scheme == LC_SCHEME_CATMULL_CLARK;
     std::int64_t triangles = 0;
@@ -108,7 +113,7 @@ class FarSubject {
     std::vector<Fan> fans;
     for (std::int32_t face = 0; face < mesh_.face_count; ++face)
       descend(face, 0, depth, {face, 0, 1, quads ? square : triangle}, output, fans);
-    if (mesh_.channel_count > 0) put_channels<Real>(request, depth, primvars, fans, out);
+    if (mesh_.channel_count > 0) put_channels<Real>(request, depth, fans, out);
   }
 
   // A triangle of a refined face: its corners 0, k and k + 1.
@@ -116,52 +121,56 @@ class FarSubject {
     int face, k;
   };
 
-  // Points, or values of a channel, of the last level: level by level, or by stencils that skip the levels between.
-  static constexpr int kPositions = -1;
+  // Points, or values of the refiner's channel, of the last level: level by level, or by stencils that skip the levels
+  // between.
   template <class Real, class Point>
-  std::vector<Point> refined(const Far::PrimvarRefinerReal<Real>& primvars, std::vector<Point> points,
-                             int depth, int channel) const {
-    const bool positions = channel == kPositions;
+  std::vector<Point> refined(const Far::TopologyRefiner& refiner, std::vector<Point> points,
+                             int depth) const {
+    constexpr bool kPositions = std::is_same_v<Point, Vector<Real>>;
     const auto room = [&](int at) {
-      const Far::TopologyLevel& level = refiner_->GetLevel(at);
+      const Far::TopologyLevel& level = refiner.GetLevel(at);
       return std::vector<Point>(
-          static_cast<std::size_t>(positions ? level.GetNumVertices() : level.GetNumFVarValues(channel)));
+          static_cast<std::size_t>(kPositions ? level.GetNumVertices() : level.GetNumFVarValues(0)));
     };
     if (stencils_ && depth > 0) {
       using Factory = Far::StencilTableFactoryReal<Real>;
       typename Factory::Options options;
-      options.interpolationMode = positions ? Factory::INTERPOLATE_VERTEX : Factory::INTERPOLATE_FACE_VARYING;
-      options.fvarChannel = static_cast<unsigned>(std::max(0, channel));
+      options.interpolationMode =
+          kPositions ? Factory::INTERPOLATE_VERTEX : Factory::INTERPOLATE_FACE_VARYING;
       options.generateIntermediateLevels = false;
-      const std::unique_ptr<const Far::StencilTableReal<Real>> table(Factory::Create(*refiner_, options));
+      const std::unique_ptr<const Far::StencilTableReal<Real>> table(Factory::Create(refiner, options));
       std::vector<Point> last = room(depth);
       if (table == nullptr || table->GetNumStencils() != static_cast<int>(last.size()))
         throw SubjectError(LC_FAILED, "Far makes no stencil of some point");
       table->UpdateValues(points.data(), last.data());
       return last;
     }
+    const Far::PrimvarRefinerReal<Real> primvars(refiner);
     for (int level = 1; level <= depth; ++level) {
       std::vector<Point> next = room(level);
-      positions ? primvars.Interpolate(level, points, next)
-                : primvars.InterpolateFaceVarying(level, points, next, channel);
+      kPositions ? primvars.Interpolate(level, points, next)
+                 : primvars.InterpolateFaceVarying(level, points, next);
       points.swap(next);
     }
     return points;
   }
 
   template <class Real>
-  void put_channels(const lc_request& request, int depth, const Far::PrimvarRefinerReal<Real>& primvars,
-                    const std::vector<Fan>& fans, lc_tessellation& out) const {
+  void put_channels(const lc_request& request, int depth, const std::vector<Fan>& fans,
+                    lc_tessellation& out) const {
     auto* to = allocate_channels<Real>(request, mesh_, out);
-    for (int channel = 0; channel < mesh_.channel_count; ++channel) {
-      const lc_channel& from = mesh_.channels[channel];
-      const auto values = refined(primvars, opensubdiv_values<Real>(from), depth, channel);
+    for (std::int64_t c = 0; c < mesh_.channel_count; ++c) {
+      const lc_channel& channel = mesh_.channels[c];
+      const auto refiner = make_refiner(with_channel(mesh_, c));
+      refine(*refiner, depth);
+      const auto values = refined<Real>(*refiner, opensubdiv_values<Real>(channel), depth);
       std::vector<OpenSubdivValue<Real>> limit(values.size());
-      primvars.LimitFaceVarying(values, limit, channel);
+      Far::PrimvarRefinerReal<Real>(*refiner).LimitFaceVarying(values, limit);
       for (const auto& [face, k] : fans) {
-        const auto indices = refiner_->GetLevel(depth).GetFaceFVarValues(face, channel);
+        const auto indices = refiner->GetLevel(depth).GetFaceFVarValues(face);
         for (const int corner : {0, k, k + 1})
-          to = std::copy_n(limit[static_cast<std::size_t>(indices[corner])].x.begin(), from.components, to);
+          to =
+              std::copy_n(limit[static_cast<std::size_t>(indices[corner])].x.begin(), channel.components, to);
       }
     }
   }

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -91,8 +90,15 @@ inline OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary_rule(const lc
   return mesh.corners_held != 0 ? Rules::VTX_BOUNDARY_EDGE_AND_CORNER : Rules::VTX_BOUNDARY_EDGE_ONLY;
 }
 
-/// The refiner of a control mesh with its sharp edges and vertices, and its channels, which have one rule. Throws
-/// SubjectError if they have not.
+/// The mesh with one of its channels, or with none: a refiner has one rule for all.
+inline constexpr std::int64_t kNoChannel = -1;
+inline lc_mesh with_channel(lc_mesh mesh, std::int64_t channel) {
+  mesh.channel_count = channel == kNoChannel ? 0 : 1;
+  if (channel != kNoChannel) mesh.channels += channel;
+  return mesh;
+}
+
+/// The refiner of a control mesh with its sharp edges and vertices, and its channel, if it has one.
 inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
     const lc_mesh& mesh, OpenSubdiv::Sdc::SchemeType type,
     OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary) {
@@ -123,16 +129,15 @@ inline std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(
   scheme.SetVtxBoundaryInterpolation(boundary);
   if (mesh.creasing == LC_CREASING_CHAIKIN) scheme.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
   if (mesh.smooth_triangles != 0) scheme.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
-  std::vector<Far::TopologyDescriptor::FVarChannel> channels;
-  for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count))) {
-    if (c.rule != mesh.channels[0].rule) throw SubjectError(LC_NOT_SUPPORTED, "channels of different rules");
-    Far::TopologyDescriptor::FVarChannel& channel = channels.emplace_back();
-    channel.numValues = static_cast<int>(c.value_count);
-    channel.valueIndices = c.corners;
-    scheme.SetFVarLinearInterpolation(static_cast<Sdc::Options::FVarLinearInterpolation>(c.rule));
+  Far::TopologyDescriptor::FVarChannel channel;
+  if (mesh.channel_count > 0) {
+    channel.numValues = static_cast<int>(mesh.channels->value_count);
+    channel.valueIndices = mesh.channels->corners;
+    descriptor.numFVarChannels = 1;
+    descriptor.fvarChannels = &channel;
+    scheme.SetFVarLinearInterpolation(
+        static_cast<Sdc::Options::FVarLinearInterpolation>(mesh.channels->rule));
   }
-  descriptor.numFVarChannels = static_cast<int>(channels.size());
-  descriptor.fvarChannels = channels.data();
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   std::unique_ptr<Far::TopologyRefiner> refiner(Factory::Create(descriptor, Factory::Options(type, scheme)));
   errors.check();

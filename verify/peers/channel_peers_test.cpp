@@ -148,7 +148,8 @@ TEST(ChannelPeers, FarHasTheSameValuesWhereItIsRight) {
   for (std::uint64_t seed = 1; seed <= 6400; ++seed) {
     const bool triangles = seed % 2 == 0;
     const ControlMesh mesh = random_channel(seed, triangles);
-    const auto rule = static_cast<ChannelRule>(seed / 2 % 6);
+    // The rule `all` is linear at once, without steps; what Far delivers by it is compared below.
+    const auto rule = static_cast<ChannelRule>(seed / 2 % 5);
     const double worst =
         worst_difference(mesh, rule, triangles ? data::Scheme::kLoop : data::Scheme::kCatmullClark, 3);
     // By Chaikin's creasing Far has other points of some edges, of positions as of values. [findings]

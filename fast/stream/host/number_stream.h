@@ -72,8 +72,7 @@ class NumberStream {
     generic::EdgeStream<N> strip(depth, rings_.placement(), work.data());
     for (std::size_t e = 0; e < half_edges.size(); ++e, out += edge_output_size(depth)) {
       gather_edges(adjacency_, rings_, half_edges.subspan(e, 1), depth, 1, input.data());
-      strip.refine(input.data(), 0, input.data() + edge_block_size(depth), 0);
-      strip.store(out);
+      strip.scatter(input.data(), 0, input.data() + edge_block_size(depth), 0, generic::LaneRow<N>{out, 0});
     }
   }
 

@@ -14,6 +14,7 @@
 #define HWY_AFTER_NAMESPACE() static_assert(true)
 #define HWY_ATTR
 #define HWY_INLINE inline
+#define HWY_FLATTEN
 
 #include "fast/stream/kernel/quad_patch-inl.h"
 #include "fast/stream/kernel/quad_stream-inl.h"
@@ -24,10 +25,13 @@
 #undef HWY_AFTER_NAMESPACE
 #undef HWY_ATTR
 #undef HWY_INLINE
+#undef HWY_FLATTEN
 // The vector targets include the same files anew.
 #undef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
 #undef LIMITCHECK_FAST_STREAM_RULES_INL_H_
 #undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_
+#undef LIMITCHECK_FAST_STREAM_STRIP_INL_H_
+#undef LIMITCHECK_FAST_STREAM_VERTEX_INL_H_
 #undef LIMITCHECK_FAST_STREAM_QUAD_PATCH_INL_H_
 #undef LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_
 #undef LIMITCHECK_FAST_STREAM_QUAD_RULES_INL_H_

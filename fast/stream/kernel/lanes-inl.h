@@ -18,6 +18,7 @@
 #include "fast/frame/stores.h"
 #include "fast/stream/kernel/number.h"
 #include "fast/stream/kernel/rules-inl.h"
+#include "fast/stream/kernel/vertex-inl.h"
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128  // those run the scalar kernel
 
@@ -58,6 +59,7 @@ struct LaneNumber {
   HWY_ATTR static HWY_INLINE V splat(double x) { return {hn::Set(D(), static_cast<Scalar>(x))}; }
 
   static constexpr bool kLinear = false;
+  static constexpr bool kInRegisters = HWY_NATIVE_FMA != 0;
   static constexpr bool kHasSeed = true;
   HWY_ATTR static HWY_INLINE V inverse_root_seed(V x) {
     const hn::RebindToSigned<D> bits;
@@ -100,56 +102,28 @@ struct LaneNumber {
 
   /// See ScalarNumber. Transposed within 128-bit blocks, which are stored as they are: that takes the fewest
   /// shuffles, which only one port can do.
-  template <class Vertex>
-  HWY_ATTR static HWY_INLINE void scatter_couple(const Vertex& a, const Vertex& b, Scalar* aos,
-                                                 std::ptrdiff_t lane_stride) {
-    hn::Vec<D> v[3][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
-                          {a.normal[1].v, a.normal[2].v, b.position[0].v, b.position[1].v},
-                          {b.position[2].v, b.normal[0].v, b.normal[1].v, b.normal[2].v}};
-    for (int t = 0; t < 3; ++t) transpose_blocks(v[t]);
-    if constexpr (lanes == 16) {  // where the rows leave no room for the output in the first-level cache
-      for (int lane = 0; lane < lanes; ++lane) __builtin_prefetch(aos + lane * lane_stride + 48, 1, 3);
-    }
-    for (int r = 0; r < 4; ++r, aos += lane_stride) {
-      const hn::Vec<D> lanes_r[3] = {v[0][r], v[1][r], v[2][r]};
-      store_blocks<0>(lanes_r, aos, lane_stride);
-    }
-  }
-
-  HWY_ATTR static HWY_INLINE void expect([[maybe_unused]] Scalar* const* aos,
-                                         [[maybe_unused]] std::ptrdiff_t offset) {
-    if constexpr (lanes == 16) {
-      for (int lane = 0; lane < lanes; ++lane) __builtin_prefetch(aos[lane] + offset, 1, 3);
-    }
-  }
-
-  template <class Vertex>
-  HWY_ATTR static HWY_INLINE void scatter_couple(const Vertex& a, const Vertex& b, Scalar* const* aos,
-                                                 std::ptrdiff_t offset) {
+  template <class Vertex, class Place>
+  HWY_ATTR static HWY_INLINE void scatter_couple(const Vertex& a, const Vertex& b, const Place& to) {
     hn::Vec<D> v[3][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
                           {a.normal[1].v, a.normal[2].v, b.position[0].v, b.position[1].v},
                           {b.position[2].v, b.normal[0].v, b.normal[1].v, b.normal[2].v}};
     for (int t = 0; t < 3; ++t) transpose_blocks(v[t]);
     for (int r = 0; r < 4; ++r) {
       const hn::Vec<D> lanes_r[3] = {v[0][r], v[1][r], v[2][r]};
-      store_blocks<0>(lanes_r, aos + r, offset);
+      store_blocks<0>(lanes_r, to, r);
     }
   }
-
-  template <class Vertex>
-  HWY_ATTR static HWY_INLINE void scatter_vertex(const Vertex& a, Scalar* const* aos, std::ptrdiff_t offset) {
+  template <class Vertex, class Place>
+  HWY_ATTR static HWY_INLINE void scatter_vertex(const Vertex& a, const Place& to) {
     hn::Vec<D> v[2][4] = {{a.position[0].v, a.position[1].v, a.position[2].v, a.normal[0].v},
                           {a.normal[1].v, a.normal[2].v, a.normal[1].v, a.normal[2].v}};
     for (int t = 0; t < 2; ++t) transpose_blocks(v[t]);
-    for (int r = 0; r < 4; ++r) store_one<0>(v[0][r], v[1][r], aos + r, offset);
+    for (int r = 0; r < 4; ++r) store_one<0>(v[0][r], v[1][r], to, r);
   }
-
-  template <class Vertex>
-  HWY_ATTR static HWY_INLINE void scatter_vertex(const Vertex& a, Scalar* aos, std::ptrdiff_t lane_stride) {
-    alignas(64) Scalar soa[6 * lanes];
-    a.store(soa);
-    for (int lane = 0; lane < lanes; ++lane, aos += lane_stride) {
-      for (int k = 0; k < 6; ++k) aos[k] = soa[k * lanes + lane];
+  template <class Place>
+  HWY_ATTR static HWY_INLINE void expect([[maybe_unused]] const Place& to) {
+    if constexpr (lanes == 16) {
+      for (int lane = 0; lane < lanes; ++lane) __builtin_prefetch(to(lane % 4, lane / 4), 1, 3);
     }
   }
 
@@ -168,40 +142,27 @@ struct LaneNumber {
     v[3] = hn::BitCast(d, hn::InterleaveUpper(wide, ab1, ce1));
   }
 
-  // Block b of three vectors to the twelve numbers at aos + 4 b lane_stride.
-  template <int b>
-  HWY_ATTR static HWY_INLINE void store_blocks(const hn::Vec<D> (&v)[3], Scalar* aos,
-                                               std::ptrdiff_t lane_stride) {
+  // Block b of three vectors to the twelve numbers of lane 4 b + r.
+  template <int b, class Place>
+  HWY_ATTR static HWY_INLINE void store_blocks(const hn::Vec<D> (&v)[3], const Place& to, int r) {
     if constexpr (4 * b < lanes) {
       const hn::CappedTag<Scalar, 4> quarter;
-      for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, aos + 4 * t);
-      store_blocks<b + 1>(v, aos + 4 * lane_stride, lane_stride);
-    }
-  }
-
-  // The same where every lane has a pointer of its own.
-  template <int b>
-  HWY_ATTR static HWY_INLINE void store_blocks(const hn::Vec<D> (&v)[3], Scalar* const* aos,
-                                               std::ptrdiff_t offset) {
-    if constexpr (4 * b < lanes) {
-      const hn::CappedTag<Scalar, 4> quarter;
-      Scalar* to = aos[4 * b] + offset;
-      for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, to + 4 * t);
-      store_blocks<b + 1>(v, aos, offset);
+      Scalar* const at = to(r, b);
+      for (int t = 0; t < 3; ++t) hn::StoreU(block<b>(v[t]), quarter, at + 4 * t);
+      store_blocks<b + 1>(v, to, r);
     }
   }
 
   // Block b of the first and the first half of block b of the second.
-  template <int b>
-  HWY_ATTR static HWY_INLINE void store_one(hn::Vec<D> v, hn::Vec<D> half, Scalar* const* aos,
-                                            std::ptrdiff_t offset) {
+  template <int b, class Place>
+  HWY_ATTR static HWY_INLINE void store_one(hn::Vec<D> v, hn::Vec<D> half, const Place& to, int r) {
     if constexpr (4 * b < lanes) {
       const hn::CappedTag<Scalar, 4> quarter;
       const hn::Half<decltype(quarter)> two;
-      Scalar* to = aos[4 * b] + offset;
-      hn::StoreU(block<b>(v), quarter, to);
-      hn::StoreU(hn::LowerHalf(two, block<b>(half)), two, to + 4);
-      store_one<b + 1>(v, half, aos, offset);
+      Scalar* const at = to(r, b);
+      hn::StoreU(block<b>(v), quarter, at);
+      hn::StoreU(hn::LowerHalf(two, block<b>(half)), two, at + 4);
+      store_one<b + 1>(v, half, to, r);
     }
   }
 
@@ -327,7 +288,6 @@ class LineRuns {
 template <class N>
 struct LineRow {
   LineRuns<N>* runs;
-  HWY_ATTR HWY_INLINE LineRow from(int /*i*/) const { return *this; }
   HWY_ATTR HWY_INLINE void couple(int /*i*/, const Vertex<N>& a, const Vertex<N>& b) const {
     runs->add(a);
     runs->add(b);

@@ -91,11 +91,12 @@ constexpr int edge_block_size(int depth) {
 constexpr int edge_input_size(int depth) {
   return 2 * edge_block_size(depth);
 }
-constexpr int edge_work_size(int depth) {
-  return 2 * 3 * 3 * ((1 << depth) + 2) + 6 + edge_input_size(depth);
-}
 constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
+}
+/// Points and one of their tangents; one coordinate of three rows and two windows.
+constexpr int edge_work_size(int depth) {
+  return 2 * edge_output_size(depth) + 2 * edge_window_width(depth);
 }
 
 /// The strips are done before the rows begin, and work where those will be.

@@ -39,6 +39,9 @@ struct ScalarNumber {
   /// Whether a point keeps a linear image of its tangents in place of its unit normal, see LinearNumber.
   static constexpr bool kLinear = false;
 
+  /// Whether what is short is worth code of its own, in which no number leaves the registers.
+  static constexpr bool kInRegisters = false;
+
   static constexpr bool kHasSeed = std::is_same_v<T, float>;
   static V inverse_root(const V& x) {
     using std::sqrt;
@@ -52,26 +55,20 @@ struct ScalarNumber {
   static V equal(const V& a, const V& b) { return T(a == b ? 1 : 0); }
   static V select(const V& chosen, const V& a, const V& b) { return chosen == T(0) ? b : a; }
 
-  /// Position and normal of a vertex to aos[lane * lane_stride + 0 .. 5] of each lane; two to 0 .. 11.
-  template <class Vertex>
-  static void scatter_vertex(const Vertex& a, T* aos, std::ptrdiff_t /*lane_stride*/) {
-    for (int c = 0; c < 3; ++c) aos[c] = a.position[c], aos[3 + c] = a.normal[c];
+  /// Position and normal of a vertex to the numbers 0 .. 5 at to(r, b) of each lane 4 b + r; two to 0 .. 11.
+  template <class Vertex, class Place>
+  static void scatter_vertex(const Vertex& a, const Place& to) {
+    T* const at = to(0, 0);
+    for (int c = 0; c < 3; ++c) at[c] = a.position[c], at[3 + c] = a.normal[c];
   }
-  template <class Vertex>
-  static void scatter_couple(const Vertex& a, const Vertex& b, T* aos, std::ptrdiff_t lane_stride) {
-    scatter_vertex(a, aos, lane_stride);
-    scatter_vertex(b, aos + 6, lane_stride);
+  template <class Vertex, class Place>
+  static void scatter_couple(const Vertex& a, const Vertex& b, const Place& to) {
+    scatter_vertex(a, to);
+    scatter_vertex(b, [&](int, int) { return to(0, 0) + 6; });
   }
-  /// The same to memory of each lane's own: aos[lane] + offset. And a word ahead that it will be written.
-  static void expect(T* const* /*aos*/, std::ptrdiff_t /*offset*/) {}
-  template <class Vertex>
-  static void scatter_vertex(const Vertex& a, T* const* aos, std::ptrdiff_t offset) {
-    scatter_vertex(a, aos[0] + offset, 0);
-  }
-  template <class Vertex>
-  static void scatter_couple(const Vertex& a, const Vertex& b, T* const* aos, std::ptrdiff_t offset) {
-    scatter_couple(a, b, aos[0] + offset, 0);
-  }
+  /// A word ahead that they will be written.
+  template <class Place>
+  static void expect(const Place& /*to*/) {}
 };
 
 /// For numbers that know linear maps alone: every point has one of its two limit tangents where others have

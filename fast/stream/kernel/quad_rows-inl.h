@@ -238,13 +238,15 @@ struct QuadLaneRow {
   typename N::Scalar* const* lane;
   std::ptrdiff_t offset;
   HWY_ATTR HWY_INLINE void couple(int i, const Vertex<N>& a, const Vertex<N>& b) const {
-    N::scatter_couple(a, b, lane, offset + 6 * i);
+    N::scatter_couple(a, b, place(i));
   }
-  HWY_ATTR HWY_INLINE void vertex(int i, const Vertex<N>& a) const {
-    N::scatter_vertex(a, lane, offset + 6 * i);
+  HWY_ATTR HWY_INLINE void vertex(int i, const Vertex<N>& a) const { N::scatter_vertex(a, place(i)); }
+  HWY_ATTR HWY_INLINE void expect(int i) const { N::expect(place(i)); }
+
+ private:
+  HWY_ATTR HWY_INLINE auto place(int i) const {
+    return [to = lane, at = offset + 6 * i](int r, int b) HWY_ATTR { return to[r + 4 * b] + at; };
   }
-  /// Point i will be written soon.
-  HWY_ATTR HWY_INLINE void expect(int i) const { N::expect(lane, offset + 6 * i); }
 };
 template <class N>
 struct QuadLaneTarget {
@@ -255,36 +257,6 @@ struct QuadLaneTarget {
     if (to.row) to.row(to.context, j);
   }
 };
-
-/// The inside of a row, points 1 .. size - 1, with its ends given; size even. `points` gives them from 1 on in
-/// turn, see begin_vertex(), and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
-/// next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
-/// cache.
-template <class N, bool far = false, class Points, class Row>
-HWY_ATTR HWY_INLINE void scatter_row(Points& points, int size, const Vertex<N>& first, const Vertex<N>& last,
-                                     const Row& to) {
-  Vertex<N> a, b;
-  begin_vertex<N, true>(points, b);
-  if (size == 2) {
-    b.end();
-    to.couple(0, first, b);
-  } else {
-    begin_vertex<N, false>(points, a, b);
-    to.couple(0, first, b);
-    for (int i = 2;; i += 2) {
-      begin_vertex<N, true>(points, b, a);
-      if (i + 2 == size) break;
-      Vertex<N> next;
-      begin_vertex<N, false>(points, next, b);
-      if constexpr (far) to.expect(i + 8);
-      to.couple(i, a, b);
-      a = next;
-    }
-    b.end();
-    to.couple(size - 2, a, b);
-  }
-  to.vertex(size, last);
-}
 
 /// Any points of a row of even size, of which the ends are given: point(i, v) makes point i.
 template <class N, class Point, class Row>

@@ -16,6 +16,7 @@
 
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/rules-inl.h"
+#include "fast/stream/kernel/vertex-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {

@@ -34,9 +34,8 @@ template <int lanes>
 HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacement<float>& placement,
                              float* work, float* out, std::ptrdiff_t lane_stride) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
-  EdgeStream<Number> strip(depth, placement, work);
-  strip.refine(input, 0, input + edge_block_size(depth) * lanes, 0);
-  strip.scatter(LaneRow<Number>{out, lane_stride});
+  EdgeStream<Number>(depth, placement, work)
+      .scatter(input, 0, input + edge_block_size(depth) * lanes, 0, LaneRow<Number>{out, lane_stride});
 }
 
 #if HWY_TARGET == HWY_AVX3
@@ -81,9 +80,9 @@ const char* run_scalar(float* input, int depth, const KernelPlacement<float>& pl
 
 void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
                      float* out, std::ptrdiff_t lane_stride) {
-  generic::EdgeStream<ScalarNumber<float>> strip(depth, placement, work);
-  strip.refine(input, 0, input + edge_block_size(depth), 0);
-  strip.scatter(generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
+  generic::EdgeStream<ScalarNumber<float>>(depth, placement, work)
+      .scatter(input, 0, input + edge_block_size(depth), 0,
+               generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
 }
 
 }  // namespace

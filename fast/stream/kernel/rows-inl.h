@@ -17,55 +17,73 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// Rows s, m, n are rows j-1, j, j+1, each pointing at point 0. Writes the children of even row that point i
-/// of row m begins: (2i, 2j) and (2i+1, 2j).
-template <class N, Axis axis>
-HWY_ATTR HWY_INLINE void refine_even(const typename N::Scalar* s, const typename N::Scalar* m,
-                                     const typename N::Scalar* n, int i, typename N::Scalar* even) {
-  constexpr int L = N::lanes;
-  s += 3 * i * L, m += 3 * i * L, n += 3 * i * L, even += 6 * i * L;
-  for (int c = 0; c < 3; ++c, s += L, m += L, n += L, even += L) {
-    const auto v = N::load(m);
-    N::store(vertex_rule<N>(v, ring_sum(hexagon<N, axis>(s, m, n))), even);
-    N::store(edge_rule<N>(v, N::load(m + 3 * L), N::load(n + 3 * L), N::load(s)), even + 3 * L);
+/// One coordinate of row j of a level and of the rows below and above it, each from point 0 on: its children in even row
+/// 2 j of the next level. Neighbours stay in registers from point to point.
+template <class N>
+class EvenChildren {
+ public:
+  using Scalar = typename N::Scalar;
+  using V = typename N::V;
+  static constexpr int L = N::lanes, step = 3 * L;
+
+  /// Begins with the column left of the grid: only odd columns count there.
+  HWY_ATTR HWY_INLINE EvenChildren(const Scalar* s, const Scalar* m, const Scalar* n, Scalar* even)
+      : s_(s), m_(m), n_(n), even_(even), w_(N::load(m - step)), v_(N::load(m)), sw_(N::load(s - step)),
+        nw_(N::load(n)) {
+    N::store(edge_rule<N>(w_, v_, nw_, sw_), even - step);
   }
-}
+
+  /// The children that the next points begin, up to before `end`, with this axis.
+  template <Axis axis>
+  HWY_ATTR HWY_INLINE void next(int end) {
+    for (; i_ < end; ++i_) {
+      const V e = N::load(m_ + step), ne = N::load(n_ + step), se = N::load(s_);
+      N::store(vertex_rule<N>(v_, ring_sum(turned<axis>(Hexagon<V>{e, ne, nw_, w_, sw_, se}))), even_);
+      N::store(edge_rule<N>(v_, e, ne, se), even_ + step);
+      w_ = v_, v_ = e, nw_ = ne, sw_ = se;
+      s_ += step, m_ += step, n_ += step, even_ += 2 * step;
+    }
+  }
+
+ private:
+  const Scalar *s_, *m_, *n_;
+  Scalar* even_;
+  V w_, v_, sw_, nw_;
+  int i_ = 0;
+};
 
 /// Row 2j of the next level from rows j-1, j, j+1 of a level of 2^level = size, 0 <= j <= size.
 template <class N>
 HWY_ATTR void refine_even_row(const typename N::Scalar* s, const typename N::Scalar* m,
                               const typename N::Scalar* n, int size, int j, typename N::Scalar* even) {
-  constexpr int L = N::lanes;
-  for (int c = 0; c < 3; ++c) {  // the column left of the grid: only odd columns count there
-    const int k = (c - 3) * L;
-    N::store(edge_rule<N>(N::load(m + k), N::load(m + c * L), N::load(n + c * L), N::load(s + k)), even + k);
+  for (int k = 0; k < 3 * N::lanes; k += N::lanes) {
+    EvenChildren<N> children(s + k, m + k, n + k, even + k);
+    if (j > 0 && j < size) {
+      children.template next<Axis::kColumn>(1);
+      children.template next<Axis::kRow>(j);
+      children.template next<Axis::kDiagonal>(j + 1);
+      children.template next<Axis::kRow>(size);
+      children.template next<Axis::kColumn>(size + 1);
+    } else {
+      children.template next<Axis::kRow>(size + 1);
+    }
   }
-  if (j == 0 || j == size) {
-    for (int i = 0; i <= size; ++i) refine_even<N, Axis::kRow>(s, m, n, i, even);
-    return;
-  }
-  refine_even<N, Axis::kColumn>(s, m, n, 0, even);
-  for (int i = 1; i < j; ++i) refine_even<N, Axis::kRow>(s, m, n, i, even);
-  refine_even<N, Axis::kDiagonal>(s, m, n, j, even);
-  for (int i = j + 1; i < size; ++i) refine_even<N, Axis::kRow>(s, m, n, i, even);
-  refine_even<N, Axis::kColumn>(s, m, n, size, even);
 }
 
 /// Row 2j+1 of the next level, between rows m = j and n = j+1, -1 <= j <= size: edge points only.
 template <class N>
 HWY_ATTR void refine_odd_row(const typename N::Scalar* m, const typename N::Scalar* n, int size,
                              typename N::Scalar* odd) {
-  constexpr int L = N::lanes;
-  for (int c = 0; c < 3; ++c) {
-    const int k = (c - 3) * L;
-    N::store(edge_rule<N>(N::load(m + k), N::load(n + c * L), N::load(m + c * L), N::load(n + k)), odd + k);
-  }
-  for (int i = 0; i <= size; ++i, m += 3 * L, n += 3 * L, odd += 6 * L) {
-    for (int c = 0; c < 3; ++c) {
-      const auto v = N::load(m + c * L), e = N::load(m + (c + 3) * L), w = N::load(m + (c - 3) * L);
-      const auto nw = N::load(n + c * L), ne = N::load(n + (c + 3) * L);
-      N::store(edge_rule<N>(v, nw, w, ne), odd + c * L);
-      N::store(edge_rule<N>(v, ne, e, nw), odd + (c + 3) * L);
+  using V = typename N::V;
+  constexpr int L = N::lanes, step = 3 * L;
+  for (int c = 0; c < 3; ++c, m += L, n += L, odd += L) {
+    V w = N::load(m - step), v = N::load(m), nw = N::load(n);
+    N::store(edge_rule<N>(w, nw, v, N::load(n - step)), odd - step);
+    for (int k = 0; k <= size * step; k += step) {
+      const V e = N::load(m + k + step), ne = N::load(n + k + step);
+      N::store(edge_rule<N>(v, nw, w, ne), odd + 2 * k);
+      N::store(edge_rule<N>(v, ne, e, nw), odd + 2 * k + step);
+      w = v, v = e, nw = ne;
     }
   }
 }

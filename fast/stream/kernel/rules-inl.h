@@ -47,17 +47,21 @@ HWY_ATTR HWY_INLINE V vertex_rule(V v, V sum) {
   return N::fma(N::splat(5), v, N::splat(.5) * sum);
 }
 
+/// Neighbours seen along the row, seen along another axis.
+template <Axis axis, class V>
+HWY_ATTR HWY_INLINE Hexagon<V> turned(const Hexagon<V>& h) {
+  if constexpr (axis == Axis::kRow) return h;
+  if constexpr (axis == Axis::kColumn) return {h.nw, h.w, h.sw, h.se, h.e, h.ne};
+  if constexpr (axis == Axis::kDiagonal) return {h.ne, h.nw, h.w, h.sw, h.se, h.e};
+}
+
 /// The six neighbours of number k of row m, below s and above n; `lanes` numbers each, three to a point.
 template <class N, Axis axis>
 HWY_ATTR HWY_INLINE Hexagon<typename N::V> hexagon(const typename N::Scalar* s, const typename N::Scalar* m,
                                                    const typename N::Scalar* n) {
   constexpr int step = 3 * N::lanes;
-  const auto e = N::load(m + step), w = N::load(m - step);
-  const auto ne = N::load(n + step), nw = N::load(n);
-  const auto sw = N::load(s - step), se = N::load(s);
-  if constexpr (axis == Axis::kRow) return {e, ne, nw, w, sw, se};
-  if constexpr (axis == Axis::kColumn) return {nw, w, sw, se, e, ne};
-  if constexpr (axis == Axis::kDiagonal) return {ne, nw, w, sw, se, e};
+  return turned<axis>(Hexagon<typename N::V>{N::load(m + step), N::load(n + step), N::load(n),
+                                             N::load(m - step), N::load(s - step), N::load(s)});
 }
 
 /// Limit of a regular point: 12 position = 6 v + sum; of the tangents u = 2 (e - w) + ne - nw + se - sw along

@@ -53,7 +53,7 @@ struct CornerBlock {
   static constexpr int kCentre = 2;        // c
   static constexpr int kDifference = 5;    // d
   static constexpr int kLimit = 8;         // limit position and unit normal, in the caller's coordinates
-  static constexpr int kWindow = 14;       // window_width entries, less c with local origins; overwritten
+  static constexpr int kWindow = 14;       // window_width entries, less c with local origins
 };
 
 /// From a depth on every control edge and every grid has an origin of its own, near it: differences of points

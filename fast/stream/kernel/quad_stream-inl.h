@@ -310,10 +310,10 @@ class QuadStream {
     const Scalar unit = quad_unit(placement_.unit, depth_ - 1);
     if (j % 2 == 0) {
       FusedLimitRow<N, false> points(before(q - 1), before(q), before(q + 1), before(q + 1), centre_, unit);
-      scatter_row<N, true>(points, size, first, last, to);
+      scatter_row<N>(points, size, first, last, to, true);
     } else {
       FusedLimitRow<N, true> points(before(q - 1), before(q), before(q + 1), before(q + 2), centre_, unit);
-      scatter_row<N, true>(points, size, first, last, to);
+      scatter_row<N>(points, size, first, last, to, true);
     }
   }
 

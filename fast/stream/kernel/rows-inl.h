@@ -9,6 +9,7 @@
 #endif
 
 #include <cstddef>
+#include <type_traits>
 
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/rules-inl.h"
@@ -17,56 +18,38 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// One coordinate of row j of a level and of the rows below and above it, each from point 0 on: its children in even row
-/// 2 j of the next level. Neighbours stay in registers from point to point.
+/// Row 2j of the next level from rows j-1, j, j+1 of a level of 2^level = size, 0 <= j <= size. Neighbours stay in
+/// registers from point to point.
 template <class N>
-class EvenChildren {
- public:
-  using Scalar = typename N::Scalar;
+HWY_FLATTEN HWY_ATTR void refine_even_row(const typename N::Scalar* s, const typename N::Scalar* m,
+                                          const typename N::Scalar* n, int size, int j,
+                                          typename N::Scalar* even) {
   using V = typename N::V;
-  static constexpr int L = N::lanes, step = 3 * L;
-
-  /// Begins with the column left of the grid: only odd columns count there.
-  HWY_ATTR HWY_INLINE EvenChildren(const Scalar* s, const Scalar* m, const Scalar* n, Scalar* even)
-      : s_(s), m_(m), n_(n), even_(even), w_(N::load(m - step)), v_(N::load(m)), sw_(N::load(s - step)),
-        nw_(N::load(n)) {
-    N::store(edge_rule<N>(w_, v_, nw_, sw_), even - step);
-  }
-
-  /// The children that the next points begin, up to before `end`, with this axis.
-  template <Axis axis>
-  HWY_ATTR HWY_INLINE void next(int end) {
-    for (; i_ < end; ++i_) {
-      const V e = N::load(m_ + step), ne = N::load(n_ + step), se = N::load(s_);
-      N::store(vertex_rule<N>(v_, ring_sum(turned<axis>(Hexagon<V>{e, ne, nw_, w_, sw_, se}))), even_);
-      N::store(edge_rule<N>(v_, e, ne, se), even_ + step);
-      w_ = v_, v_ = e, nw_ = ne, sw_ = se;
-      s_ += step, m_ += step, n_ += step, even_ += 2 * step;
+  constexpr int L = N::lanes, step = 3 * L;
+  constexpr std::integral_constant<Axis, Axis::kRow> row;
+  constexpr std::integral_constant<Axis, Axis::kColumn> column;
+  constexpr std::integral_constant<Axis, Axis::kDiagonal> diagonal;
+  for (int c = 0; c < 3; ++c, s += L, m += L, n += L, even += L) {
+    V w = N::load(m - step), v = N::load(m), sw = N::load(s - step), nw = N::load(n);
+    N::store(edge_rule<N>(w, v, nw, sw), even - step);  // left of the grid: only odd columns count there
+    int k = 0;
+    const auto children_before = [&](int end, auto axis) HWY_ATTR {
+      for (; k < end * step; k += step) {
+        const V e = N::load(m + k + step), ne = N::load(n + k + step), se = N::load(s + k);
+        const Hexagon<V> around{e, ne, nw, w, sw, se};
+        N::store(vertex_rule<N>(v, ring_sum(turned<decltype(axis)::value>(around))), even + 2 * k);
+        N::store(edge_rule<N>(v, e, ne, se), even + 2 * k + step);
+        w = v, v = e, nw = ne, sw = se;
+      }
+    };
+    const bool border = j == 0 || j == size;
+    if (!border) {
+      children_before(1, column);
+      children_before(j, row);
+      children_before(j + 1, diagonal);
+      children_before(size, row);
     }
-  }
-
- private:
-  const Scalar *s_, *m_, *n_;
-  Scalar* even_;
-  V w_, v_, sw_, nw_;
-  int i_ = 0;
-};
-
-/// Row 2j of the next level from rows j-1, j, j+1 of a level of 2^level = size, 0 <= j <= size.
-template <class N>
-HWY_ATTR void refine_even_row(const typename N::Scalar* s, const typename N::Scalar* m,
-                              const typename N::Scalar* n, int size, int j, typename N::Scalar* even) {
-  for (int k = 0; k < 3 * N::lanes; k += N::lanes) {
-    EvenChildren<N> children(s + k, m + k, n + k, even + k);
-    if (j > 0 && j < size) {
-      children.template next<Axis::kColumn>(1);
-      children.template next<Axis::kRow>(j);
-      children.template next<Axis::kDiagonal>(j + 1);
-      children.template next<Axis::kRow>(size);
-      children.template next<Axis::kColumn>(size + 1);
-    } else {
-      children.template next<Axis::kRow>(size + 1);
-    }
+    border ? children_before(size + 1, row) : children_before(size + 1, column);
   }
 }
 
@@ -105,7 +88,9 @@ struct LaneRow {
 
  private:
   HWY_ATTR HWY_INLINE auto place(int i) const {
-    return [to = out + 6 * i, stride = lane_stride](int r, int b) HWY_ATTR { return to + r * stride + 4 * b * stride; };
+    auto* to = out + 6 * i;
+    __asm__("" : "+r"(to));  // else compilers keep the place of each store of the loop, on the stack
+    return [to, stride = lane_stride](int r, int b) HWY_ATTR { return to + r * stride + 4 * b * stride; };
   }
 };
 
@@ -129,7 +114,8 @@ class LimitRow {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  HWY_ATTR HWY_INLINE LimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre, Scalar unit)
+  HWY_ATTR HWY_INLINE LimitRow(const Scalar* s, const Scalar* m, const Scalar* n, const V* centre,
+                               Scalar unit)
       : s_(s), m_(m), n_(n), unit_(N::splat(unit)) {
     for (int c = 0; c < 3; ++c) centre_[c] = centre[c];
   }

@@ -31,7 +31,7 @@ class Stream {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  /// input: input_size(depth) * lanes numbers, windows are overwritten; work: work_size(depth) * lanes.
+  /// input: input_size(depth) * lanes numbers; work: work_size(depth) * lanes.
   /// Both aligned to 64 bytes; work holds finite numbers.
   HWY_ATTR Stream(Scalar* input, int depth, const KernelPlacement<Scalar>& placement, Scalar* work,
                   const To& target)
@@ -176,7 +176,7 @@ class Stream {
     }
     LimitRow<N> row(s, m, n, centre_, unit_);
     if (!border) row.give(j, diagonal);
-    scatter_row<N, true>(row, size, first, last, to);
+    scatter_row<N>(row, size, first, last, to, depth_ >= 5);
     target_.done(j);
   }
 

@@ -183,8 +183,8 @@ class EdgeStream {
 
   // One coordinate of the points and of their two tangents.
   template <int known>
-  HWY_FLATTEN HWY_ATTR void coordinate(int c, const Scalar* p, int p_first, const Scalar* q, int q_first, const V* origin,
-                           Scalar* out) {
+  HWY_FLATTEN HWY_ATTR void coordinate(int c, const Scalar* p, int p_first, const Scalar* q, int q_first,
+                                       const V* origin, Scalar* out) {
     constexpr bool k = known > 0;
     constexpr int kEntries = k ? edge_window_width(known) : 0, kPoints = k ? 1 << known : 0;
     const int depth = k ? known : depth_, end = 1 << depth, width = edge_window_width(depth);
@@ -216,7 +216,8 @@ class EdgeStream {
       up.set(size - 1, b.entry.get(middle - 1)), down.set(size - 1, b.entry.get(middle + 1));
     });
 
-    const V unit = N::splat(unit_), centre = N::fma(origin[c], N::splat(placement_.unit), N::splat(placement_.centre[c]));
+    const V unit = N::splat(unit_),
+            centre = N::fma(origin[c], N::splat(placement_.unit), N::splat(placement_.centre[c]));
     V w = line.get(0), v = line.get(1), nw = up.get(0), sw = down.get(0);
     each<k>(1, end, [&](int i) HWY_ATTR {
       const V e = line.get(i + 1), ne = up.get(i), se = down.get(i);

@@ -131,15 +131,15 @@ HWY_ATTR HWY_INLINE void begin_vertex(Points&& points, Vertex<N>& v, Vertex<N>& 
 /// turn, see begin_vertex(), and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
 /// next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
 /// cache.
-template <class N, bool far = false, class Points, class Row>
+template <class N, class Points, class Row>
 HWY_ATTR HWY_INLINE void scatter_row(Points& points, int size, const Vertex<N>& first, const Vertex<N>& last,
-                                     const Row& to) {
+                                     const Row& to, bool far = false) {
   if (size == 1) return to.couple(0, first, last);
   Vertex<N> a = first, b, after;
   begin_vertex<N, true>(points, b);
   for (int i = 0; i + 2 < size; i += 2) {
     begin_vertex<N, false>(points, after, b);
-    if constexpr (far) to.expect(i + 8);
+    if (far) to.expect(i + 8);
     to.couple(i, a, b);
     a = after;
     begin_vertex<N, true>(points, b, a);

@@ -186,14 +186,14 @@ TEST(Cost_RowStream, IsItsRulesTimesItsPoints) {
   }
 }
 
-// Local origins: the five edges of a pair are evaluated twice, once for themselves. That is 17 % at
-// depth 5, and half of it at the next.
+// Local origins: the five edges of a pair are evaluated twice, once for themselves. By the rules, without what the
+// rings of the ends give, that is 29.7, 15.9 and 8.0 % at depths 4, 5 and 6: nearly half of it at the next.
 TEST(Cost_RowStream, RisesWithLocalOriginsByTheStripsAlone) {
   for (int depth = 4; depth <= 6; ++depth) {
     const KernelCost cost = count_operations(CountedKernel::kRowStream, data::torus(5, 6), depth);
     const std::int64_t without = stream_by_hand(depth).flops();
     const double more = static_cast<double>(cost.operations.flops()) / static_cast<double>(without) - 1;
-    EXPECT_NEAR(more, .172 * static_cast<double>(power(2, 5)) / static_cast<double>(power(2, depth)), .02)
+    EXPECT_NEAR(more, .155 * static_cast<double>(power(2, 5)) / static_cast<double>(power(2, depth)), .02)
         << "depth " << depth;
   }
 }

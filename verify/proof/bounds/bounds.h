@@ -75,7 +75,7 @@ double normal_error_share(const PointBound& bound);
 double product_error(const PointBound& bound);
 
 /// How far the length of a unit normal may be from 1: the rounding of three components, of the sum of their
-/// squares, and the inverse root of row streaming (2.2e-7, see rules-inl.h).
+/// squares, and the inverse root of row streaming (2.2e-7, see vertex-inl.h).
 inline constexpr double kLengthBound = 8 * 0x1p-24;
 
 /// The bounds, and the worst errors found by trying: random control meshes and signs at the corners of the box, then

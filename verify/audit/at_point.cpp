@@ -27,8 +27,10 @@ AtPoint look_at(const AuditSubject& subject, const AuditMesh& mesh, const Place&
   const Tessellation tessellation = session.tessellate(asked, threads);
   const lc_capabilities& capabilities = session.capabilities();
   ReferenceSurface truth(session.mesh(), mesh.scheme(), mesh.depth, capabilities.points,
-                         family(capabilities.weights));
+                         family(capabilities.weights), points_anywhere(capabilities, tessellation));
   const Lattice::Id id = truth.lattice().id(place);
+  if (id == Lattice::kNone && capabilities.points_anywhere != 0)
+    throw data::ArgumentError("the point is none that the subject delivers");
   if (id == Lattice::kNone)
     throw data::ArgumentError(
         fmt::format("the point is none that a subject delivers at depth {}: U and V are multiples of 1/{}",

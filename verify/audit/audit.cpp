@@ -86,8 +86,11 @@ bool related(Level level, const AuditMesh& mesh, const data::ControlMesh& judged
 std::vector<std::string_view> rows_of_relations(Level level, const AuditMesh& mesh,
                                                 const data::ControlMesh& judged) {
   if (related(level, mesh, judged)) return relation_rows_of(judged, mesh.scheme());
-  if (level == Level::kQuick || !mesh.asked_again || mesh.sample) return {};
-  return {"determinism"};
+  if (level == Level::kQuick || mesh.sample) return {};
+  std::vector<std::string_view> rows;
+  if (mesh.asked_again) rows.emplace_back("determinism");
+  if (mesh.turned) rows.emplace_back("corner-rotation");
+  return rows;
 }
 
 // How the places of a subject without provenance were found.
@@ -311,17 +314,28 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
   const data::ControlMesh& judged = part ? *part : session->mesh();
 
   step(rows.subject, mesh.name, "reference");
-  ReferenceSurface& truth = reference(judged, mesh.scheme(), depth_of(mesh), session->capabilities());
+  std::optional<ReferenceSurface> own;  // of points that may lie elsewhere in each tessellation
+  KeptGuesses of_own;
+  if (const lc_capabilities& c = session->capabilities(); c.points_anywhere != 0)
+    own.emplace(judged, mesh.scheme(), depth_of(mesh), c.points, family(c.weights),
+                points_anywhere(c, *tessellation));
+  ReferenceSurface& truth =
+      own ? *own : reference(judged, mesh.scheme(), depth_of(mesh), session->capabilities());
   const Evidence evidence = gather(audited, mesh, *session, judged, asked, *tessellation, truth);
   const std::string no_reference = prepare(truth, evidence.point);
   close(*session, results.front());
 
   run_checks(audited, mesh, evidence, rows, no_reference);
   if (keep_rows_) keep_rows_();
-  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results, guesses_);
+  if (no_reference.empty() && interrupted() == 0) recognise(evidence, results, own ? of_own : guesses_);
   if (interrupted() != 0) return;
+  const std::vector<std::string_view> relations = rows_of_relations(level_, mesh, judged);
+  const auto wanted = [&](std::string_view relation) {
+    return std::find(relations.begin(), relations.end(), relation) != relations.end() &&
+           wants(audited, mesh, relation);
+  };
   const auto told = [&](std::string_view relation) {
-    if (!wants(audited, mesh, relation)) return false;
+    if (!wanted(relation)) return false;
     step(rows.subject, mesh.name, relation);
     return true;
   };
@@ -331,8 +345,9 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     lock.unlock();
     for (Result& r : check_relations(audited, evidence, threads_, refusals, told))
       results.push_back(std::move(r));
-  } else if (!rows_of_relations(level_, mesh, judged).empty() && told("determinism")) {
-    results.push_back(check_determinism(audited, evidence));
+  } else if (std::any_of(relations.begin(), relations.end(), wanted)) {
+    for (Result& r : check_cheap_relations(audited, evidence, threads_, told))
+      results.push_back(std::move(r));
   }
 }
 

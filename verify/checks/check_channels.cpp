@@ -281,7 +281,9 @@ void check_shared_values(const Evidence& e, const Corners& corners, std::size_t 
   for (const std::int32_t v : cut.faces.corners()) most = std::max(most, v);
   cut.positions.resize(static_cast<std::size_t>(most) + 1);
   cut.sharpness = {};
-  const Lattice lattice(cut, e.lattice.scheme(), e.lattice.depth());
+  std::span<const Place> anywhere;
+  if (e.capabilities.points_anywhere != 0) anywhere = corners.places;
+  const Lattice lattice(cut, e.lattice.scheme(), e.lattice.depth(), anywhere);
   std::vector<Lattice::Id> ids;
   for (const Place& p : corners.places) ids.push_back(lattice.id(p));
   std::unordered_map<Lattice::Id, const Corner*> first;

@@ -66,31 +66,31 @@ struct Tiling {
 
 // Take every triangle counter-clockwise and add up the boundaries: how often a point is covered is the
 // winding number of the sum. So every point is covered exactly once if and only if the sum is the outline of
-// the face, whichever diagonals the tiling has. Sides are cut into primitive steps, so that a side may meet
-// two shorter ones (`t-vertices` reports T-vertices).
+// the face, whichever diagonals the tiling has. Sides on one line are sums of intervals, which vanish if and only if
+// those that end at each point are as many as begin there; so a side may meet two shorter ones (`t-vertices` reports
+// T-vertices).
 void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::int64_t scale, Tiling& v) {
-  struct Step {
-    Lattice::Coordinates from, to;  // from < to
+  using Point = Lattice::Coordinates;
+  struct End {
+    Point line, at;  // a line by its least direction, of part -1 - its own
     std::int32_t times;
-    auto key() const { return std::tie(from.part, from.i, from.j, to.part, to.i, to.j); }
+    auto key() const { return std::tie(line.part, line.i, line.j, at.part, at.i, at.j); }
   };
-  // The scale is fine enough for the centre; without it everything is a multiple of a larger unit.
-  const std::int64_t large = domain.centre_denominator();
-  const bool plain = std::all_of(triangles.begin(), triangles.end(), [&](const Corners& c) {
-    return std::all_of(c.begin(), c.end(),
-                       [&](const auto& p) { return p.i % large == 0 && p.j % large == 0; });
-  });
-  const std::int64_t unit = plain ? large : 1;
-  std::vector<Step> steps;
-  steps.reserve(3 * triangles.size());
-  const auto add = [&](const Lattice::Coordinates& p, const Lattice::Coordinates& q, std::int32_t times) {
-    domain.for_each_step(p, q, scale, unit, [&](const auto& from, const auto& to) {
-      Step step{domain.canonical(from, scale), domain.canonical(to, scale), times};
-      if (std::tie(step.to.part, step.to.i, step.to.j) < std::tie(step.from.part, step.from.i, step.from.j)) {
-        std::swap(step.from, step.to);
-        step.times = -times;
+  std::vector<End> ends;
+  ends.reserve(6 * triangles.size());
+  const auto add = [&](const Point& p, const Point& q, std::int32_t times) {
+    domain.for_each_straight(p, q, scale, [&](const Point& from, const Point& to) {
+      if (from.part != to.part) {  // between two parts: from there to there and back, and nothing else
+        const Point a = domain.canonical(from, scale), b = domain.canonical(to, scale);
+        const bool up = std::tie(a.part, a.i, a.j) < std::tie(b.part, b.i, b.j);
+        ends.push_back({up ? a : b, up ? b : a, up ? times : -times});
+        return;
       }
-      steps.push_back(step);
+      const std::int64_t di = to.i - from.i, dj = to.j - from.j;
+      const std::int64_t step = (di < 0 || (di == 0 && dj < 0) ? -1 : 1) * std::gcd(di, dj);
+      const Point line{di / step, dj / step, -1 - from.part};
+      ends.push_back({line, to, times});
+      ends.push_back({line, from, -times});
     });
   };
   for (Corners c : triangles) {
@@ -102,12 +102,12 @@ void judge_tiling(std::span<const Corners> triangles, FaceDomain domain, std::in
   for (int k = 0; k < domain.corners(); ++k)
     add(domain.corner_point(k, scale), domain.corner_point(domain.next(k), scale), -1);
 
-  std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.key() < b.key(); });
-  for (std::size_t k = 0; k < steps.size();) {
+  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.key() < b.key(); });
+  for (std::size_t k = 0; k < ends.size();) {
     std::size_t end = k;
     std::int64_t sum = 0;
-    for (; end < steps.size() && steps[end].key() == steps[k].key(); ++end) sum += steps[end].times;
-    if (sum != 0) v.note(v.holes, steps[k].from);
+    for (; end < ends.size() && ends[end].key() == ends[k].key(); ++end) sum += ends[end].times;
+    if (sum != 0) v.note(v.holes, ends[k].at);
     k = end;
   }
   // The sum of the areas tells whether it is a hole, an overlap or both.
@@ -220,7 +220,9 @@ std::vector<Result> check_coverage(const Evidence& e) {
     Tiling& v = verdicts[f];
     if (e.face_depth[f] >= 0) {
       judge_tiling(own, e.lattice.domain(f), e.lattice.scale(), v);
-      judge_points(own, e.lattice.domain(f), e.lattice.scale(), e.face_depth[f], is_plain(e, deepest, f), v);
+      if (e.capabilities.points_anywhere == 0)
+        judge_points(own, e.lattice.domain(f), e.lattice.scale(), e.face_depth[f], is_plain(e, deepest, f),
+                     v);
     } else if (!own.empty()) {
       v.note(v.shown, own[0][0]);
     }
@@ -260,7 +262,11 @@ std::vector<Result> check_coverage(const Evidence& e) {
   tell(&Tiling::fan, "of these fans round their centre, as the paper repairs cracks");
   tell(&Tiling::shown, "displayed although culled");
   if (misplaced > 0) say(r, fmt::format("{} triangles not in the face that they name", misplaced));
-  if (off_lattice > 0) say(r, fmt::format("{} vertices off the lattice", off_lattice));
+  if (off_lattice > 0)
+    say(r, fmt::format("{} vertices {}", off_lattice,
+                       e.capabilities.points_anywhere == 0
+                           ? "off the lattice"
+                           : "of fractions that have no common denominator below 2^32 with the others"));
   if (r.bad == 0 && nowhere.wrong()) {
     r.bad = 1;
     r.witness = Witness{.triangle = nowhere.triangle};

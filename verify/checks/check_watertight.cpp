@@ -17,19 +17,59 @@ namespace {
 
 using OpenEdge = SurfaceReport::Edge;
 
-// A lattice point strictly inside the open edge that some vertex names, or kNone. The ends of an edge need a
-// common face to be compared in.
+// The points that vertices name, and those of them that touch each face, where points may be anywhere.
+struct NamedPoints {
+  explicit NamedPoints(const Evidence& e) : is_named(e.lattice.size(), false), of_face(e.mesh.faces.size()) {
+    for (const Lattice::Id id : e.point)
+      if (id != Lattice::kNone) is_named[id] = true;
+    if (e.capabilities.points_anywhere == 0) return;
+    for (std::size_t v = 0; v < e.point.size(); ++v) {
+      const Lattice::Id id = e.point[v];
+      if (id == Lattice::kNone) continue;
+      if (e.lattice.is_shared(id) && !e.lattice.is_vertex(id)) {
+        for (const std::int32_t face : e.lattice.edges()[e.lattice.edge_of(id)].face)
+          if (face >= 0) of_face[face].push_back(id);
+      } else if (!e.lattice.is_shared(id)) {
+        of_face[e.tessellation.place(static_cast<std::int64_t>(v)).face].push_back(id);
+      }
+    }
+  }
+  std::vector<bool> is_named;
+  std::vector<std::vector<Lattice::Id>> of_face;
+};
+
+// A point strictly inside the open edge that some vertex names, or kNone. The ends of an edge need a common face to be
+// compared in.
 Lattice::Id point_inside(const Evidence& e, const OpenEdge& edge, Lattice::Id from, Lattice::Id to,
-                         const std::vector<bool>& named) {
+                         const NamedPoints& named) {
   const std::int32_t face = e.tessellation.triangle_face()[edge.triangle];
   const auto p = e.lattice.in_face(from, face), q = e.lattice.in_face(to, face);
   if (!p || !q) return Lattice::kNone;
   Lattice::Id inside = Lattice::kNone;
-  e.lattice.domain(face).for_each_step(*p, *q, e.lattice.scale(), 1, [&](const auto&, const auto& end) {
-    const Lattice::Id id = e.lattice.id(face, end, e.lattice.scale());
-    if (inside == Lattice::kNone && id != to && id != Lattice::kNone && named[id]) inside = id;
-  });
-  return inside;
+  const FaceDomain domain = e.lattice.domain(face);
+  if (e.capabilities.points_anywhere == 0) {
+    domain.for_each_step(*p, *q, e.lattice.scale(), [&](const auto&, const auto& end) {
+      const Lattice::Id id = e.lattice.id(face, end, e.lattice.scale());
+      if (inside == Lattice::kNone && id != to && id != Lattice::kNone && named.is_named[id]) inside = id;
+    });
+    return inside;
+  }
+  const auto is_between = [&](Lattice::Id id) {
+    bool between = false;
+    const Lattice::Coordinates at = *e.lattice.in_face(id, face);
+    domain.for_each_straight(*p, *q, e.lattice.scale(), [&](const auto& a, const auto& b) {
+      const auto m = domain.in_part(at, a.part, e.lattice.scale());
+      if (!m || a.part != b.part || domain.area({a, *m, b}, e.lattice.scale()) != 0) return;
+      const auto within = [](std::int64_t x, std::int64_t y, std::int64_t z) {
+        return std::min(x, z) <= y && y <= std::max(x, z);
+      };
+      between = between || (within(a.i, m->i, b.i) && within(a.j, m->j, b.j));
+    });
+    return between;
+  };
+  for (const Lattice::Id id : named.of_face[face])
+    if (id != from && id != to && is_between(id)) return id;
+  return Lattice::kNone;
 }
 
 // What our own count and CGAL find on the welded surface.
@@ -112,9 +152,7 @@ Cracks find_cracks(const Evidence& e, const Looked& looked, const Outline& outli
     w.triangle = triangle;
     return w;
   };
-  std::vector<bool> named(e.lattice.size(), false);
-  for (const Lattice::Id id : e.point)
-    if (id != Lattice::kNone) named[id] = true;
+  const NamedPoints named(e);
 
   // By provenance: an open edge is a step of the boundary,
   // once, or a crack, perhaps with a lattice point inside.

@@ -41,7 +41,8 @@ class Outline {
   explicit Outline(const Evidence& e);
 
   /// One visible face along one control edge, in the direction in which the face runs along it. The depth of
-  /// the side is at least that of the face and at most that of the deepest visible neighbour.
+  /// the side is at least that of the face and at most that of the deepest visible neighbour; of a subject that
+  /// delivers points anywhere it is 0, and the steps are those between the points delivered there.
   struct Side {
     std::int32_t face;
     int corner;  // the side begins here

@@ -134,7 +134,7 @@ AuditedMeshes every_neighbourhood(const data::ReadOptions& options, int most,
                           data::star_mesh(all[k], triangles)};
       m.asked_scheme = scheme;
       m.depths = "uniform";
-      m.relations = m.asked_again = false;
+      m.relations = m.asked_again = m.turned = false;
       for (m.depth = 0; m.depth <= std::min(2, c.max_depth); ++m.depth) result.list.push_back(m);
     }
   }

@@ -61,6 +61,7 @@ struct AuditMesh {
   std::string depths{};     // how the depths were chosen, as --depths takes it (Depths); may be empty
   bool relations = true;    // whether the relations are checked, if the auditor's level includes them
   bool asked_again = true;  // whether a mesh without relations has the row `determinism` all the same
+  bool turned = true;       // and the row `corner-rotation`
   std::optional<data::Scheme> asked_scheme = {};  // empty: the one that the mesh is meant for
   std::string
       triangulated{};  // how larger faces of what `name` means were cut, as --triangulate takes it; or empty

@@ -106,6 +106,13 @@ std::int64_t not_finite(const Tessellation& t) {
   return count;
 }
 
+std::vector<Place> points_anywhere(const lc_capabilities& capabilities, const Tessellation& t) {
+  std::vector<Place> all;
+  for (std::int64_t v = 0; capabilities.points_anywhere != 0 && v < t.vertex_count(); ++v)
+    if (t.provenance_ok(v)) all.push_back(t.place(v));
+  return all;
+}
+
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice) {
   std::vector<Lattice::Id> ids(tessellation.vertex_count());
   tbb::parallel_for(std::size_t{0}, ids.size(), [&](std::size_t v) {

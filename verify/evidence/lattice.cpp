@@ -25,11 +25,12 @@ std::set<std::pair<std::int32_t, std::int32_t>> lasting_edges(const data::Contro
 
 }  // namespace
 
-Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth)
+Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth, std::span<const Place> others)
     : mesh_(mesh),
       scheme_(scheme),
       depth_(depth),
       n_(std::int64_t{1} << depth),
+      scale_((scheme == data::Scheme::kLoop ? 3 : 2) * n_),
       first_edge_(static_cast<Id>(mesh.positions.size())) {
   if (depth < 0 || depth > 15) throw data::ArgumentError("Lattice: depth must be 0..15");
 
@@ -68,6 +69,80 @@ Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth)
     first_inner_.push_back(first_inner_.back() + domain(f).inner_count(n_) + bare);
     if (domain(f).corners() > kManyCorners && vertex_corners_.empty()) list_corners_of_vertices();
   }
+  first_other_ = first_inner_.back();
+  add_others(others);
+}
+
+namespace {
+
+// In as few steps to a side as it can be said.
+std::pair<FaceDomain::Point, std::int64_t> reduced(FaceDomain::Point p, std::int64_t steps) {
+  const std::int64_t divisor = std::gcd(std::gcd(p.i, p.j), steps);
+  return {{p.i / divisor, p.j / divisor, p.part}, steps / divisor};
+}
+
+}  // namespace
+
+Lattice::Named Lattice::named(std::int32_t face, Coordinates at) const {
+  const FaceDomain its = domain(face);
+  if (const auto on_side = its.side_of(at, scale_)) {
+    const auto [side, along] = *on_side;
+    const bool up = vertex(face, side) < vertex(face, its.next(side));
+    return OnEdge{static_cast<std::size_t>(corner_edge_[corner_number(face, side)]),
+                  up ? along : scale_ - along};
+  }
+  const Coordinates c = its.canonical(at, scale_);
+  return Inside{face, c.part, c.i, c.j};
+}
+
+void Lattice::add_others(std::span<const Place> others) {
+  constexpr std::int64_t kMostScale = std::int64_t{1} << 32;
+  std::vector<Place> off;
+  for (const Place& p : others) {
+    if (p.face < 0 || p.face >= face_count() || p.denominator == 0 || id(p) != kNone) continue;
+    const std::int64_t whole = domain(p.face).steps(p.denominator);
+    if (!domain(p.face).contains(point_of(p), whole)) continue;
+    const std::int64_t steps = reduced(point_of(p), whole).second, finer = steps / std::gcd(steps, scale_);
+    if (finer > (kMostScale - 1) / scale_) continue;
+    scale_ *= finer;
+    off.push_back(p);
+  }
+  for (const Place& p : off) {
+    const Named name = named(p.face, *at_scale(p.face, point_of(p), domain(p.face).steps(p.denominator)));
+    if (const auto* on_edge = std::get_if<OnEdge>(&name))
+      on_edges_.push_back(*on_edge);
+    else
+      inside_.push_back(std::get<Inside>(name));
+  }
+  const auto once = [](auto& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  once(on_edges_);
+  once(inside_);
+}
+
+std::optional<Lattice::Coordinates> Lattice::at_scale(std::int32_t face, FaceDomain::Point p,
+                                                      std::int64_t steps) const {
+  if (!domain(face).contains(p, steps)) return std::nullopt;
+  const auto [least, of] = reduced(p, steps);
+  if (scale_ % of != 0) return std::nullopt;
+  return Coordinates{least.i * (scale_ / of), least.j * (scale_ / of), p.part};
+}
+
+// Of a point off the lattice.
+Lattice::Id Lattice::id_of_other(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const {
+  const auto at = on_edges_.empty() && inside_.empty() ? std::nullopt : at_scale(face, p, steps);
+  if (!at) return kNone;
+  const auto number = [](const auto& list, const auto& name) {
+    const auto found = std::lower_bound(list.begin(), list.end(), name);
+    return found != list.end() && *found == name ? found - list.begin() : kNone;
+  };
+  const Named name = named(face, *at);
+  const auto* on_edge = std::get_if<OnEdge>(&name);
+  const Id first = on_edge != nullptr ? first_other_ : first_other_ + std::ssize(on_edges_);
+  const Id k = on_edge != nullptr ? number(on_edges_, *on_edge) : number(inside_, std::get<Inside>(name));
+  return k == kNone ? kNone : first + k;
 }
 
 Lattice::Id Lattice::id(const Place& p) const {
@@ -79,7 +154,7 @@ Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t ste
   const FaceDomain its = domain(face);
   if (!its.contains(p, steps)) return kNone;
   if ((p.i * n_) % steps != 0 || (p.j * n_) % steps != 0)
-    return its.is_centre(p, steps) ? first_inner_[face + 1] - 1 : kNone;
+    return its.is_centre(p, steps) ? first_inner_[face + 1] - 1 : id_of_other(face, p, steps);
   const Coordinates at{p.i * n_ / steps, p.j * n_ / steps, p.part};
   const auto on_side = its.side_of(at, n_);
   if (!on_side) return first_inner_[face] + its.inner_number(at, n_);
@@ -115,13 +190,14 @@ void Lattice::list_corners_of_vertices() {
 }
 
 std::int32_t Lattice::face_of_inner(Id id) const {
+  if (!is_on_lattice(id)) return inside_[id - first_other_ - std::ssize(on_edges_)].face;
   return static_cast<std::int32_t>(std::upper_bound(first_inner_.begin(), first_inner_.end(), id) -
                                    first_inner_.begin()) -
          1;
 }
 
 bool Lattice::is_bare_centre(Id id) const {
-  if (is_shared(id)) return false;
+  if (is_shared(id) || !is_on_lattice(id)) return false;
   const std::int32_t face = face_of_inner(id);
   return id - first_inner_[face] == domain(face).inner_count(n_);
 }
@@ -129,19 +205,24 @@ bool Lattice::is_bare_centre(Id id) const {
 std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) const {
   const FaceDomain its = domain(face);
   const std::int64_t finer = scale() / n_;
-  const auto on_side = [&](int k, std::int64_t along) { return its.on_side(k, finer * along, scale()); };
   if (is_vertex(id)) {
     const auto k = corner_of(face, id);
-    return k ? std::optional(on_side(*k, 0)) : std::nullopt;
+    return k ? std::optional(its.corner_point(*k, scale())) : std::nullopt;
   }
   if (is_shared(id)) {
     const Edge& edge = edges_[edge_of(id)];
-    const std::int64_t from_smaller = id - first_on_edge(edge_of(id)) + 1;
+    const std::int64_t from_smaller = is_on_lattice(id) ? finer * (id - first_on_edge(edge_of(id)) + 1)
+                                                        : on_edges_[id - first_other_].along;
     for (std::size_t s = 0; s < 2; ++s)
       if (edge.face[s] == face)
-        return on_side(edge.corner[s],
-                       vertex(face, edge.corner[s]) == edge.a ? from_smaller : n_ - from_smaller);
+        return its.on_side(edge.corner[s],
+                           vertex(face, edge.corner[s]) == edge.a ? from_smaller : scale() - from_smaller,
+                           scale());
     return std::nullopt;
+  }
+  if (!is_on_lattice(id)) {
+    const Inside& at = inside_[id - first_other_ - std::ssize(on_edges_)];
+    return at.face == face ? std::optional(Coordinates{at.i, at.j, at.part}) : std::nullopt;
   }
   if (id < first_inner_[face] || id >= first_inner_[face + 1]) return std::nullopt;
   const Id within = id - first_inner_[face];
@@ -213,6 +294,14 @@ Sides::Sides(const Lattice& lattice) : lattice_(lattice) {
     for (Lattice::Id i = 0; i < lattice.n() - 1; ++i)
       others_.push_back({lattice.first_on_edge(k) + i, e.face[1]});
   }
+  off_lattice_.assign(static_cast<std::size_t>(lattice.others_on_edges()), -1);
+  for (std::size_t k = 0; k < off_lattice_.size(); ++k) {
+    const Lattice::Id point = lattice.first_other() + static_cast<Lattice::Id>(k);
+    const Lattice::Edge& e = lattice.edges()[lattice.edge_of(point)];
+    if (e.on_boundary() || !stays_sharp(e)) continue;
+    off_lattice_[k] = size();
+    others_.push_back({point, e.face[1]});
+  }
 
   // The first face of each sector after that which has the id of the vertex.
   std::vector<std::vector<std::int32_t>> first_face(lattice.mesh().positions.size());
@@ -232,6 +321,7 @@ Sides::Sides(const Lattice& lattice) : lattice_(lattice) {
 Sides::Id Sides::first_other(Lattice::Id point) const {
   if (none() || !lattice_.is_shared(point)) return -1;
   if (lattice_.is_vertex(point)) return of_vertex_[point];
+  if (!lattice_.is_on_lattice(point)) return off_lattice_[point - lattice_.first_other()];
   const std::size_t edge = lattice_.edge_of(point);
   return of_edge_[edge] < 0 ? -1 : of_edge_[edge] + point - lattice_.first_on_edge(edge);
 }

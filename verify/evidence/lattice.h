@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -22,6 +24,7 @@ namespace limitcheck::verify {
 ///   then n-1 for each edge     by ascending (smaller vertex, larger vertex), counted from the smaller vertex
 ///   then, face after face      the lattice points inside it (FaceDomain::inner_number), then its centre if
 ///                              that is none of them
+///   then                       the other points that it was made with, those on edges first
 /// The adjacency is its own, because it must not depend on anything that it helps to judge.
 class Lattice {
  public:
@@ -40,7 +43,9 @@ class Lattice {
   using Coordinates = FaceDomain::Point;
 
   /// `mesh` must be valid for the scheme (data/validate.h) and outlive this. 0 <= depth <= 15.
-  Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth);
+  ///   others   points that have ids, too, though they may be off the lattice; those that lie in no face, or whose
+  ///            denominators have no common multiple below 2^32 with the ones before, are passed over
+  Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth, std::span<const Place> others = {});
   /// Of the scheme that the mesh is meant for.
   Lattice(const data::ControlMesh& mesh, int depth) : Lattice(mesh, data::natural_scheme(mesh), depth) {}
 
@@ -48,8 +53,8 @@ class Lattice {
   data::Scheme scheme() const { return scheme_; }
   int depth() const { return depth_; }
   std::int64_t n() const { return n_; }
-  std::int64_t scale() const { return (scheme_ == data::Scheme::kLoop ? 3 : 2) * n_; }
-  Id size() const { return first_inner_.back(); }
+  std::int64_t scale() const { return scale_; }
+  Id size() const { return first_other_ + std::ssize(on_edges_) + std::ssize(inside_); }
   std::int32_t face_count() const { return static_cast<std::int32_t>(mesh_.faces.size()); }
   FaceDomain domain(std::int32_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
 
@@ -86,25 +91,55 @@ class Lattice {
 
   bool is_vertex(Id id) const { return id < first_edge_; }
   /// The edge on which a shared point that is no vertex lies.
-  std::size_t edge_of(Id id) const { return static_cast<std::size_t>((id - first_edge_) / (n_ - 1)); }
+  std::size_t edge_of(Id id) const {
+    return is_on_lattice(id) ? static_cast<std::size_t>((id - first_edge_) / (n_ - 1))
+                             : on_edges_[id - first_other_].edge;
+  }
   /// A control vertex or a point on a control edge.
-  bool is_shared(Id id) const { return id < first_inner_.front(); }
+  bool is_shared(Id id) const {
+    return id < first_inner_.front() || (!is_on_lattice(id) && id < first_other_ + std::ssize(on_edges_));
+  }
+  /// Whether it is a lattice point, or the centre of a face. The others on edges have the ids from first_other() on,
+  /// those of an edge one after the other.
+  bool is_on_lattice(Id id) const { return id < first_other_; }
+  Id first_other() const { return first_other_; }
+  Id others_on_edges() const { return std::ssize(on_edges_); }
   /// The centre of a face of which no refined vertex lies there.
   bool is_bare_centre(Id id) const;
 
  private:
+  // Points off the lattice, in the order of their ids. Along: in scale() from the edge's smaller vertex.
+  struct OnEdge {
+    std::size_t edge;
+    std::int64_t along;
+    auto operator<=>(const OnEdge&) const = default;
+  };
+  struct Inside {
+    std::int32_t face, part;
+    std::int64_t i, j;
+    auto operator<=>(const Inside&) const = default;
+  };
+
   std::int32_t face_of_inner(Id id) const;
   void list_corners_of_vertices();
+  void add_others(std::span<const Place> others);
+  // The name of a point among the others; the point at the scale, unless that is too coarse for it.
+  using Named = std::variant<OnEdge, Inside>;
+  Named named(std::int32_t face, Coordinates at) const;
+  std::optional<Coordinates> at_scale(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const;
+  Id id_of_other(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const;
 
   const data::ControlMesh& mesh_;
   data::Scheme scheme_;
   int depth_;
-  std::int64_t n_;
-  Id first_edge_;
+  std::int64_t n_, scale_;
+  Id first_edge_, first_other_ = 0;
   std::vector<Id> first_inner_;  // of each face, and of one more
   std::vector<Edge> edges_;
   std::vector<std::int32_t> corner_edge_;  // the edge along the side that begins at each corner
   std::vector<std::int32_t> vertex_face_;  // one face at each vertex
+  std::vector<OnEdge> on_edges_;
+  std::vector<Inside> inside_;
   // If a face has many corners, the numbers of the corners at each vertex, ascending, from first_at_vertex_ on.
   std::vector<std::int32_t> first_at_vertex_, vertex_corners_;
 };
@@ -161,8 +196,9 @@ class Sides {
 
   const Lattice& lattice_;
   std::vector<Other> others_;
-  std::vector<std::int32_t> sector_;     // of each corner of a face, at its vertex: 0, 1 ..
-  std::vector<Id> of_vertex_, of_edge_;  // the first other side of a vertex, of the first point on an edge
+  std::vector<std::int32_t> sector_;  // of each corner of a face, at its vertex: 0, 1 ..
+  // The first other side of a vertex, of the first lattice point on an edge, of an edge's point off the lattice.
+  std::vector<Id> of_vertex_, of_edge_, off_lattice_;
 };
 
 }  // namespace limitcheck::verify

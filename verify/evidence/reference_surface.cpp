@@ -107,9 +107,10 @@ const ExactPoint* ReferenceSurface::certified(Sides::Id side) const {
 }
 
 ReferenceSurface::ReferenceSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth,
-                                   lc_points points, reference::Weights weights)
+                                   lc_points points, reference::Weights weights,
+                                   std::span<const Place> others)
     : mesh_(mesh),
-      lattice_(mesh_, scheme, depth),
+      lattice_(mesh_, scheme, depth, others),
       sides_(lattice_),
       steps_(points == LC_POINTS_LIMIT ? std::max(depth, steps_of(mesh.sharpness)) : depth),
       points_(points),

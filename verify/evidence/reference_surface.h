@@ -35,8 +35,10 @@ int steps_of(const data::Sharpness& tags);
 class ReferenceSurface {
  public:
   /// `mesh` is copied. `depth` is that of the lattice; `weights` are those of Loop's scheme.
+  ///   others   limit points off the lattice that will be asked for, too
   ReferenceSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth, lc_points points,
-                   reference::Weights weights = reference::Weights::kLoop);
+                   reference::Weights weights = reference::Weights::kLoop,
+                   std::span<const Place> others = {});
   /// Of the scheme that the mesh is meant for.
   ReferenceSurface(const data::ControlMesh& mesh, int depth, lc_points points,
                    reference::Weights weights = reference::Weights::kLoop)

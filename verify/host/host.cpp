@@ -47,7 +47,8 @@ std::string impossible(const lc_capabilities& c) {
                                {"exact_lattice", c.exact_lattice},
                                {"does_not_validate", c.does_not_validate},
                                {"no_provenance", c.no_provenance},
-                               {"channel_derivatives", c.channel_derivatives}})
+                               {"channel_derivatives", c.channel_derivatives},
+                               {"points_anywhere", c.points_anywhere}})
     if (choice.value != 0 && choice.value != 1)
       return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
@@ -57,6 +58,8 @@ std::string impossible(const lc_capabilities& c) {
     return fmt::format("channel_rules is {}", c.channel_rules);
   if (c.no_provenance != 0 && c.per_face_depth != 0)
     return "no_provenance and per_face_depth are 1, and only uniform depths can do without provenance";
+  if (c.points_anywhere != 0 && (c.no_provenance != 0 || c.points != LC_POINTS_LIMIT))
+    return "points_anywhere is 1, and only limit points with provenance can be anywhere";
   if (c.max_depth < 0) return fmt::format("max_depth is {}", c.max_depth);
   return {};
 }

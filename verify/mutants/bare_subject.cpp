@@ -43,6 +43,7 @@ const lc_subject kBare{
       const lc_status status = inner.subject->capabilities(inner.rest, out, message);
       out->per_face_depth = 0;
       out->no_provenance = 1;
+      out->points_anywhere = 0;
       return status;
     },
     [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -86,6 +87,14 @@ const std::vector<Mutant>& mutants() {
     all.push_back({"no_limit_and_swapped_points", "refined points for limit points, two of them exchanged",
                    "faulty", faulty_options("swapped_points", kBase, "mutation=no_limit"), "recognised", "",
                    false});
+    for (const auto& [fault, check] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"wrong_edge_mask", "positions"},
+                                                                    {"one_flipped_normal", "normals"},
+                                                                    {"one_ulp_crack", "shared-positions"},
+                                                                    {"missing_triangle", "coverage"},
+                                                                    {"t_vertex", "t-vertices"}})
+      all.push_back({fmt::format("anywhere_{}", fault), "at points off the lattice", "faulty",
+                     faulty_options(fault, "anywhere"), check, "", false});
     return all;
   }();
   return list;
@@ -182,7 +191,7 @@ void run_mutants(Journal& journal,
       if (stop && stop()) return;
       step(k.mutant->name, m);
       m.relations = relation;
-      m.asked_again = false;
+      m.asked_again = m.turned = false;
       const auto audit = [&](const AuditSubject& subject, std::set<std::string>& killed_by) {
         for (const Result& r : auditor.run(subject, m))
           if (is_bad(r)) killed_by.insert(r.check);

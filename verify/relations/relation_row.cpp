@@ -28,13 +28,30 @@ struct Placed {
 };
 
 // Where a vertex lies on the original mesh: its point, and that point together with the face that names it.
-Placed place(const Evidence& e, const Variant& v, const Tessellation& t, std::int64_t vertex) {
+Placed place(const Lattice& lattice, const Sides& sides, const Variant& v, const Tessellation& t,
+             std::int64_t vertex) {
   if (!t.provenance_ok(vertex)) return {};
   const Place q = v.original(t.place(vertex));
-  const Lattice::Id id = e.lattice.id(q);
+  const Lattice::Id id = lattice.id(q);
   if (id == Lattice::kNone) return {};
-  return {id * static_cast<Key>(v.face.size()) + q.face, id, e.reference.sides().of(id, q.face)};
+  return {id * static_cast<Key>(v.face.size()) + q.face, id, sides.of(id, q.face)};
 }
+Placed place(const Evidence& e, const Variant& v, const Tessellation& t, std::int64_t vertex) {
+  return place(e.lattice, e.reference.sides(), v, t, vertex);
+}
+
+// Names for the points of a variant that the original need not have.
+struct PointsAnywhere {
+  PointsAnywhere(const Evidence& e, const Variant& v, const Tessellation& t)
+      : lattice(e.mesh, e.lattice.scheme(), e.lattice.depth(), originals(e, v, t)), sides(lattice) {}
+  static std::vector<Place> originals(const Evidence& e, const Variant& v, const Tessellation& t) {
+    std::vector<Place> all = points_anywhere(e.capabilities, t);
+    for (Place& p : all) p = v.original(p);
+    return all;
+  }
+  Lattice lattice;
+  Sides sides;
+};
 
 // -0 and +0 are told apart.
 bool same_bits(const Vector& a, const Vector& b) {
@@ -81,18 +98,31 @@ bool same_arrays(const Tessellation& a, const Tessellation& b) {
 // normals at its side.
 class SharedPointBits {
  public:
+  struct Unlike {
+    Lattice::Id point;
+    Vector first, other;  // positions, or normals if the positions are the same
+  };
+
   void add(const Tessellation& t, std::int64_t vertex, Lattice::Id point, Sides::Id side) {
     const std::int64_t first = at_point_.emplace(point, vertex).first->second;
     const std::int64_t first_of_side = of_side_.emplace(side, vertex).first->second;
-    unlike_ += !same_bits(t.position(vertex), t.position(first)) ||
-               (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)));
+    if (!same_bits(t.position(vertex), t.position(first)))
+      note({point, t.position(first), t.position(vertex)});
+    else if (t.has_normals() && !same_bits(t.normal(vertex), t.normal(first_of_side)))
+      note({point, t.normal(first_of_side), t.normal(vertex)});
   }
   std::int64_t unlike() const { return unlike_; }
+  const std::optional<Unlike>& first() const { return first_; }
 
  private:
+  void note(const Unlike& found) {
+    if (unlike_++ == 0) first_ = found;
+  }
+
   std::unordered_map<Lattice::Id, std::int64_t> at_point_;
   std::unordered_map<Sides::Id, std::int64_t> of_side_;
   std::int64_t unlike_ = 0;
+  std::optional<Unlike> first_;
 };
 
 }  // namespace
@@ -127,7 +157,8 @@ std::int64_t different_channels(const Tessellation& a, const Tessellation& b) {
 Compared::Compared(const Evidence& e)
     : e_(e),
       same_(identity(e)),
-      uniform_(std::all_of(e.face_depth.begin(), e.face_depth.end(),
+      uniform_(e.capabilities.points_anywhere == 0 &&
+               std::all_of(e.face_depth.begin(), e.face_depth.end(),
                            [&](std::int32_t d) { return d == e.face_depth[0]; })) {
   SharedPointBits shared;
   for (std::int64_t v = 0; v < e.tessellation.vertex_count(); ++v) {
@@ -160,6 +191,8 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
   std::unordered_set<Lattice::Id> not_finite;
   SharedPointBits shared;
   const bool cut = v.mesh.positions.size() > e_.mesh.positions.size();  // its sides have nothing in common
+  std::optional<PointsAnywhere> anywhere;
+  if (e_.capabilities.points_anywhere != 0) anywhere.emplace(e_, v, t);
   const auto note = [&](double excess, std::int64_t mine, const Vector& expected, const Vector& got) {
     if (c.witness && excess <= c.worst) return;
     c.worst = excess;
@@ -167,6 +200,10 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.witness->show(expected, got);
   };
   for (std::int64_t k = 0; k < t.vertex_count(); ++k) {
+    if (anywhere && is_finite(t, k))
+      if (const Placed its = place(anywhere->lattice, anywhere->sides, v, t, k);
+          its.id != Lattice::kNone && anywhere->lattice.is_shared(its.id))
+        shared.add(t, k, cut ? its.side : its.id, its.side);
     const Placed at = place(e_, v, t, k);
     if (at.id == Lattice::kNone) continue;
     const auto exact = by_face_.find(*at.face_and_point);
@@ -181,7 +218,7 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     seen[at.id] = true;
     if (!is_finite(t, k))
       not_finite.insert(at.id);
-    else if (e_.lattice.is_shared(at.id))
+    else if (!anywhere && e_.lattice.is_shared(at.id))
       shared.add(t, k, cut ? at.side : at.id, at.side);
     if (!is_finite(t, k) || not_finite_.contains(at.id)) continue;
     ++c.of;
@@ -219,7 +256,11 @@ Comparison Compared::with(const Tessellation& t, const Variant& v, double slack)
     c.message =
         fmt::format("{} points are not finite, {} in the original", not_finite.size(), not_finite_.size());
   }
-  if (split_ == 0) c.split = shared.unlike();
+  if (split_ == 0 && shared.first()) {
+    c.split = shared.unlike();
+    c.split_at = e_.at((anywhere ? anywhere->lattice : e_.lattice).place(shared.first()->point));
+    c.split_at->show(shared.first()->first, shared.first()->other);
+  }
   // Next to deeper neighbours a face may be displayed deeper than asked for; which face is may depend on the
   // order.
   for (const auto& [id, vertex] : by_point_)
@@ -321,6 +362,7 @@ void RelationRow::judge(const std::string& what, const Comparison& c, bool bits_
   }
   if (c.split > 0) {
     r_.bad += c.split;
+    if (c.bad == 0) r_.witness = c.split_at;
     note(Status::kFinding,
          fmt::format(
              "{}: {} vertices at points that faces share have other bits than the first one there, none in "

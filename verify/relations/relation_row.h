@@ -25,6 +25,7 @@ struct Comparison {
   double position = 0, normal = 0;  // the largest differences: diagonals, degrees
   double worst = 0;                 // the largest of both in units of its bound
   std::optional<Witness> witness;
+  std::optional<Witness> split_at;  // the first of `split`
   std::string message;
 };
 

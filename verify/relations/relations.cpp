@@ -292,6 +292,29 @@ class Relations {
   const Compared compared_;
 };
 
+// The rows as they are found.
+struct Rows {
+  const Evidence& e;
+  const std::function<bool(std::string_view)>& on_row;
+  std::vector<Result> results;
+
+  void add(std::string_view name, const std::function<Result()>& find) {
+    if (on_row && !on_row(name)) return;
+    const Clock clock;
+    try {
+      results.push_back(find());
+      results.back().seconds = clock.seconds();
+    } catch (const std::bad_alloc&) {
+      throw;  // no memory of this program's
+    } catch (const std::exception& error) {
+      Result failed = e.result(name);
+      failed.status = Status::kError;
+      failed.message = fmt::format("the check itself failed: {}", error.what());
+      results.push_back(std::move(failed));
+    }
+  }
+};
+
 }  // namespace
 
 const std::vector<std::string_view>& relation_rows() {
@@ -313,41 +336,33 @@ std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, da
   return rows;
 }
 
-Result check_determinism(const AuditSubject& subject, const Evidence& e) {
-  return Relations(subject, e, 1).deep_determinism();
-}
-
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
                                     std::vector<Refusal>& refusals,
                                     const std::function<bool(std::string_view)>& on_row) {
   const Relations relations(subject, e, threads);
-  std::vector<Result> results;
-  const auto add = [&](std::string_view name, const std::function<Result()>& find) {
-    if (on_row && !on_row(name)) return;
-    const Clock clock;
-    try {
-      results.push_back(find());
-      results.back().seconds = clock.seconds();
-    } catch (const std::bad_alloc&) {
-      throw;  // no memory of this program's
-    } catch (const std::exception& error) {
-      Result failed = e.result(name);
-      failed.status = Status::kError;
-      failed.message = fmt::format("the check itself failed: {}", error.what());
-      results.push_back(std::move(failed));
-    }
-  };
-  add("determinism", [&] { return relations.determinism(); });
+  Rows rows{e, on_row, {}};
+  rows.add("determinism", [&] { return relations.determinism(); });
   for (const Relation& r : surface_relations())
-    if (r.applies(e.mesh, e.lattice)) add(r.row, [&] { return relations.relation(r); });
-  if (has_semi_sharp(e.mesh)) add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
-  add("state", [&] {
-    const bool asked = !results.empty() && results.front().check == "determinism";
-    return relations.state(asked ? results.front() : relations.determinism());
+    if (r.applies(e.mesh, e.lattice)) rows.add(r.row, [&] { return relations.relation(r); });
+  if (has_semi_sharp(e.mesh))
+    rows.add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
+  rows.add("state", [&] {
+    const bool asked = !rows.results.empty() && rows.results.front().check == "determinism";
+    return relations.state(asked ? rows.results.front() : relations.determinism());
   });
-  add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
-  add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });
-  return results;
+  rows.add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
+  rows.add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });
+  return std::move(rows.results);
+}
+
+std::vector<Result> check_cheap_relations(const AuditSubject& subject, const Evidence& e, int threads,
+                                          const std::function<bool(std::string_view)>& on_row) {
+  const Relations relations(subject, e, threads);
+  Rows rows{e, on_row, {}};
+  rows.add("determinism", [&] { return relations.deep_determinism(); });
+  for (const Relation& r : surface_relations())
+    if (r.row == "corner-rotation") rows.add(r.row, [&] { return relations.relation(r); });
+  return std::move(rows.results);
 }
 
 }  // namespace limitcheck::verify

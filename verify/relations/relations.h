@@ -18,7 +18,7 @@ namespace limitcheck::verify {
 ///                        bits
 ///   face-order           faces in another order
 ///   vertex-order         control vertices in another order
-///   corner-rotation      faces that begin at another corner
+///   corner-rotation      some faces begin at another corner, drawn at random
 ///   mirror               the mirror image
 ///   rotation             axes exchanged with signs: an exact rotation
 ///   scaling              times 2^10, 2^-10, 2^40 and 2^-40
@@ -39,14 +39,11 @@ namespace limitcheck::verify {
 /// The rows from face-order to fractional-sharpness hold if positions and normals differ by at most twice
 /// what one result may be off; a smaller difference in bits is a quality warning if the subject was given the
 /// same numbers. They are findings, too, if a point that faces share is delivered with unlike bits in a variant and never in
-/// the original: faces begun at other corners show it where a mesh is written too evenly.
+/// the original: faces begun at other corners show it where a mesh is written too evenly. The witness is such a point,
+/// the two values its two vertices'.
 const std::vector<std::string_view>& relation_rows();
 /// Those that a mesh has.
 std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, data::Scheme scheme);
-
-/// The row `determinism` alone, of one deep request with 1 and with 4 threads; for meshes that are audited
-/// without relations.
-Result check_determinism(const AuditSubject& subject, const Evidence& e);
 
 /// One row for each name that the mesh has. `e` is the evidence of the original request. Nothing that the
 /// subject does throws: a process that dies or hangs in one request makes its row a crash or a timeout, with
@@ -56,5 +53,10 @@ Result check_determinism(const AuditSubject& subject, const Evidence& e);
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
                                     std::vector<Refusal>& refusals,
                                     const std::function<bool(std::string_view)>& on_row = {});
+
+/// Those of meshes that are audited without relations, because they cost little and other meshes do not stand for
+/// them: `determinism`, of one deep request with 1 and with 4 threads, and `corner-rotation`.
+std::vector<Result> check_cheap_relations(const AuditSubject& subject, const Evidence& e, int threads,
+                                          const std::function<bool(std::string_view)>& on_row);
 
 }  // namespace limitcheck::verify

@@ -51,11 +51,12 @@ Variants vertex_order(const Evidence& e) {
 }
 
 Variants corner_rotation(const Evidence& e) {
-  return {variant(e, "with its faces begun at other corners", true, [&](Variant& v) {
+  // Some stay as they are, so that faces meet in every way; the first does not, or a mesh of few may be the same.
+  return {variant(e, "with some of its faces begun at other corners", true, [&](Variant& v) {
     data::SplitMix64 random(3);
     for (std::size_t f = 0; f < v.face.size(); ++f) {
-      const auto others = static_cast<std::uint64_t>(v.mesh.faces[f].size()) - 1;
-      v.turn_face(f, 1 + static_cast<int>(random.next() % others));
+      const auto corners = static_cast<std::uint64_t>(v.mesh.faces[f].size());
+      v.turn_face(f, f == 0 ? 1 : static_cast<int>(random.next() % corners));
     }
   })};
 }

@@ -227,7 +227,8 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
   const lc_capabilities& c = session.capabilities();
   session.close();
   if (t.vertex_count() == 0) return std::nullopt;
-  ReferenceSurface truth(session.mesh(), mesh.scheme(), row.depth, c.points, family(c.weights));
+  ReferenceSurface truth(session.mesh(), mesh.scheme(), row.depth, c.points, family(c.weights),
+                         points_anywhere(c, t));
   const Evidence e = gather(subject, mesh, session, session.mesh(), asked, t, truth);
 
   // The triangles nearest to the witness; without a vertex of its own, to the first of its face.

@@ -68,7 +68,8 @@ const std::vector<RowKind>& row_kinds() {
        "signed areas in exact lattice coordinates; exact facets"},
       {"coverage", "tiling", kTiling,
        "Each control face is tiled exactly once, by any triangles whose corners are lattice points, and "
-       "every lattice point of its depth is a corner. Culled faces are not there.",
+       "every lattice point of its depth is a corner. Culled faces are not there. Where points may lie anywhere, the "
+       "corners are at any fractions.",
        kNone, "integer arithmetic on the lattice of the control face"},
       {"shared-positions", "seams", kSeams,
        "A point on a control edge or vertex that is delivered more than once has the same bits each time.",
@@ -90,7 +91,10 @@ const std::vector<RowKind>& row_kinds() {
        "The same request again, with 1, 2 and 4 threads, gives the same bits.", "No bit.", kRelation},
       {"face-order", "order", kOrder, "Faces handed over in another order.", kTwice, kRelation},
       {"vertex-order", "order", kOrder, "Control vertices numbered otherwise.", kTwice, kRelation},
-      {"corner-rotation", "order", kOrder, "Faces that begin at another corner.", kTwice, kRelation},
+      {"corner-rotation", "order", kOrder,
+       "Some faces, drawn at random, begin at another corner. What faces share has equal bits then, too, if it had "
+       "before: a mesh written evenly hides sums whose order depends on the face that asks.",
+       kTwice, kRelation},
       {"mirror", "order", kOrder, "The mirror image gives the mirror image.", kTwice, kRelation},
       {"rotation", "order", kOrder, "Axes exchanged with signs, an exact rotation.", kTwice, kRelation},
       {"scaling", "tiny,huge", kOrder,

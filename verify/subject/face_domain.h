@@ -185,19 +185,13 @@ class FaceDomain {
       for (Point& p : points) p = *in_part(p, *part, n);
     return part.has_value();
   }
-  /// The straight line from p to q in the shortest steps whose coordinates are multiples of `unit`, each as
-  /// two points of one part. Between two parts a line is straight along a side only; elsewhere it is one
-  /// step.
+  /// The straight line from p to q in pieces each of which is two points of one part. Between two parts a line is straight
+  /// along a side only; elsewhere it is one piece of two parts.
   template <class Visit>
-  constexpr void for_each_step(Point p, Point q, std::int64_t n, std::int64_t unit, Visit visit) const {
+  constexpr void for_each_straight(Point p, Point q, std::int64_t n, Visit visit) const {
     std::array<Point, 2> ends{p, q};
     if (share_part(ends, n)) {
-      const std::int64_t di = ends[1].i - ends[0].i, dj = ends[1].j - ends[0].j;
-      const std::int64_t pieces = std::gcd(di, dj) / unit;
-      const auto at = [&](std::int64_t k) {
-        return Point{ends[0].i + di / pieces * k, ends[0].j + dj / pieces * k, ends[0].part};
-      };
-      for (std::int64_t k = 0; k < pieces; ++k) visit(at(k), at(k + 1));
+      visit(ends[0], ends[1]);
       return;
     }
     const auto at = side_of(p, n);  // a corner lies on the side before, too
@@ -205,11 +199,23 @@ class FaceDomain {
     for (const int side : {own < other ? own : other, own < other ? other : own}) {
       const Point middle{n / 2, 0, side};
       if (n % 2 != 0 || along(p, side, n) < 0 || along(q, side, n) < 0) continue;
-      for_each_step(p, middle, n, unit, visit);
-      for_each_step(middle, q, n, unit, visit);
+      for_each_straight(p, middle, n, visit);
+      for_each_straight(middle, q, n, visit);
       return;
     }
     visit(p, q);
+  }
+  /// The same in the shortest steps between points of the scale.
+  template <class Visit>
+  constexpr void for_each_step(Point p, Point q, std::int64_t n, Visit visit) const {
+    for_each_straight(p, q, n, [&](Point from, Point to) {
+      if (from.part != to.part) return visit(from, to);
+      const std::int64_t di = to.i - from.i, dj = to.j - from.j, pieces = std::gcd(di, dj);
+      const auto at = [&](std::int64_t k) {
+        return Point{from.i + di / pieces * k, from.j + dj / pieces * k, from.part};
+      };
+      for (std::int64_t k = 0; k < pieces; ++k) visit(at(k), at(k + 1));
+    });
   }
 
   /// The centre is (1, 1) over this many steps.
@@ -296,9 +302,10 @@ class FaceDomain {
   /// Twice the oriented area of a triangle of points, > 0 counter-clockwise, in triangles of the lattice.
   /// Exact if a part has all three points; otherwise of a regular polygon, rounded.
   double area(std::array<Point, 3> c, std::int64_t n) const {
+    __extension__ using Wide = __int128;  // products of numbers up to 2^32
     if (share_part(c, n))
-      return static_cast<double>((c[1].i - c[0].i) * (c[2].j - c[0].j) -
-                                 (c[2].i - c[0].i) * (c[1].j - c[0].j));
+      return static_cast<double>(Wide{c[1].i - c[0].i} * (c[2].j - c[0].j) -
+                                 Wide{c[2].i - c[0].i} * (c[1].j - c[0].j));
     // The polygon has the radius 1 and, like its parts together, the area parts() * (n / 2)^2.
     const auto a = flat(c[0], n), b = flat(c[1], n), d = flat(c[2], n);
     const double half = static_cast<double>(n) / 2, unit = std::sin(2 * std::numbers::pi / corners_);

@@ -112,7 +112,7 @@ TEST(FaceDomain, LinesAreCutIntoTheStepsOfTheirNeighbours) {
       steps.emplace_back(key(domain.canonical(p, kN)), key(domain.canonical(q, kN)));
     };
     for (int k = 0; k < domain.corners(); ++k)
-      domain.for_each_step(domain.corner_point(k, kN), domain.corner_point(domain.next(k), kN), kN, 1, add);
+      domain.for_each_step(domain.corner_point(k, kN), domain.corner_point(domain.next(k), kN), kN, add);
     EXPECT_EQ(steps.size(), static_cast<std::size_t>(domain.corners() * kN));
     for (int k = 0; k < domain.corners(); ++k)
       for (std::int64_t at = 0; at < kN; ++at) {

@@ -26,7 +26,7 @@ std::vector<MissingSubject> missing_subjects() {
 const lc_subject* find_subject(std::string_view name) {
   std::vector<const lc_subject*> all = built_in_subjects();
   all.insert(all.end(), {lc_subject_null(), lc_subject_faulty(), lc_subject_unusual(), lc_subject_bare(),
-                         lc_subject_model(), lc_subject_quad_model()});
+                         lc_subject_anywhere(), lc_subject_model(), lc_subject_quad_model()});
   for (const lc_subject* subject : all) {
     if (subject->name == name) return subject;
   }

@@ -25,6 +25,7 @@ const lc_subject* lc_subject_quad_model();  // the same of Catmull-Clark's surfa
 const lc_subject* lc_subject_faulty();      // options: verify/mutants/faulty_subjects.h
 const lc_subject* lc_subject_unusual();     // options: the same
 const lc_subject* lc_subject_bare();        // options: bare=SUBJECT first
+const lc_subject* lc_subject_anywhere();    // right, at points that are on no lattice
 }
 
 namespace limitcheck::verify {

@@ -161,6 +161,12 @@ typedef struct lc_capabilities {
    * channels that have one of these; 0: none. */
   int32_t channel_rules;
   int32_t channel_derivatives; /* 1: delivers the derivatives of channels with their values */
+  /* 1: vertices may lie anywhere in a face, as those of hardware tessellation or of an adaptive one do: at any
+   * fractions, and no lattice point needs to be a vertex. The triangles still tile each face, and faces that meet have
+   * the same points on their common edge. 2^depth, times 3 (Loop) or 2, and all reduced denominators have a common
+   * multiple below 2^32, in each tessellation. The depth asked for is what the subject makes of it. Limit points
+   * only, and not together with no_provenance. */
+  int32_t points_anywhere;
 } lc_capabilities;
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or

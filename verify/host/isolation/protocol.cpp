@@ -235,6 +235,7 @@ Capabilities read_capabilities(Source& source) {
   if (version > 1 && header.has("channels")) c.channel_rules = header.bits("channels", kChannelRules);
   if (version > 1 && header.has("channel_derivatives"))
     c.channel_derivatives = header.flag("channel_derivatives");
+  if (version > 1 && header.has("points_anywhere")) c.points_anywhere = header.flag("points_anywhere");
   if (header.has("options")) result.options = header.text("options");
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;

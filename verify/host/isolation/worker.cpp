@@ -110,6 +110,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"provenance", c.no_provenance == 0},
           {"channels", protocol::names_of(c.channel_rules, protocol::kChannelRules)},
           {"channel_derivatives", c.channel_derivatives != 0},
+          {"points_anywhere", c.points_anywhere != 0},
           {"options", subject.options != nullptr ? subject.options : ""}};
 }
 

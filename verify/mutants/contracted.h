@@ -27,6 +27,8 @@ namespace limitcheck::verify {
 ///   kByCallSite  one of these three, drawn for each place in the program's code: code that was inlined, unrolled or
 ///                peeled is there several times, and each copy may be contracted otherwise
 enum class Contraction { kNone, kLeft, kRight, kByCallSite };
+/// Another one draws otherwise.
+inline std::uint64_t which_compiler = 0;
 
 /// A float that knows of which factors it is the rounded product, until it is stored in memory.
 template <Contraction kHow>
@@ -69,7 +71,7 @@ class Contracted {
     const auto distance = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(site) -
                                                      reinterpret_cast<std::uintptr_t>(&origin));
     constexpr Contraction kOne[] = {Contraction::kNone, Contraction::kLeft, Contraction::kRight};
-    return kOne[data::SplitMix64(distance).next() % 3];
+    return kOne[data::SplitMix64(distance ^ which_compiler << 32).next() % 3];
   }
   static Contracted sum(const Contracted& a, const Contracted& b, const void* site) {
     const Contraction how = kHow == Contraction::kByCallSite ? at(site) : kHow;

@@ -68,7 +68,8 @@ const std::vector<RowKind>& row_kinds() {
        "signed areas in exact lattice coordinates; exact facets"},
       {"coverage", "tiling", kTiling,
        "Each control face is tiled exactly once, by any triangles whose corners are lattice points, and "
-       "every lattice point of its depth is a corner. Culled faces are not there. Where points may lie anywhere, the "
+       "every lattice point of its depth is a corner. Culled faces are not there. Where points may lie "
+       "anywhere, the "
        "corners are at any fractions.",
        kNone, "integer arithmetic on the lattice of the control face"},
       {"shared-positions", "seams", kSeams,
@@ -92,7 +93,8 @@ const std::vector<RowKind>& row_kinds() {
       {"face-order", "order", kOrder, "Faces handed over in another order.", kTwice, kRelation},
       {"vertex-order", "order", kOrder, "Control vertices numbered otherwise.", kTwice, kRelation},
       {"corner-rotation", "order", kOrder,
-       "Some faces, drawn at random, begin at another corner. What faces share has equal bits then, too, if it had "
+       "Some faces, drawn at random, begin at another corner. What faces share has equal bits then, too, if "
+       "it had "
        "before: a mesh written evenly hides sums whose order depends on the face that asks.",
        kTwice, kRelation},
       {"mirror", "order", kOrder, "The mirror image gives the mirror image.", kTwice, kRelation},
@@ -153,10 +155,12 @@ const std::vector<RowKind>& row_kinds() {
        "As of positions, with the size of the channel.",
        "Stam's evaluator in double on the mesh that is cut along the seams"},
       {"channel-derivatives", "channels", kOther,
-       "Only where the subject delivers them: the derivatives of channels by the parameters of the control face, "
+       "Only where the subject delivers them: the derivatives of channels by the parameters of the control "
+       "face, "
        "at each corner of each triangle on its side of a seam, where the limit has any.",
        "2^(steps + 2) times that of channel-positions.",
-       "a difference of points 2^-steps apart (verify/row/bounds.h); as for channel-positions, and certified"},
+       "a difference of points 2^-steps apart (verify/row/bounds.h); as for channel-positions, and "
+       "certified"},
       {"channel-shared", "channels", kOther,
        "A point on one side of a seam has the same bits in all triangles that have it.", kNone,
        "the bytes delivered"},

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <string>
+#include <cstdint>
 
 #include "data/generators/named_mesh.h"
 #include "verify/mutants/contracted.h"
@@ -18,35 +18,38 @@ struct Shared {
   std::int64_t compared = 0, different = 0;
 };
 template <Contraction kHow>
-Shared shared() {
+Shared shared(int depth) {
   Shared sum;
   for (const char* name : {"octahedron", "icosahedron", "stellated", "cube", "torus", "wheel:7", "fan:4",
                            "sheet", "holes", "random:1", "random:2", "bumpy:200"}) {
     const data::ControlMesh mesh = rounded(data::named_mesh(name));
-    constexpr int kDepth = 4;
-    SharedBits bits(mesh, kDepth);
-    contracted_points<kHow>(mesh, kDepth,
+    SharedBits bits(mesh, depth);
+    contracted_points<kHow>(mesh, depth,
                             [&](const fast::LatticePoint& at, const std::array<float, 6>& vertex) {
                               bits.add({at.face, at.i, at.j, at.denominator}, vertex.data());
                             });
     sum.compared += bits.compared(), sum.different += bits.different();
   }
-  testing::Test::RecordProperty("compared", std::to_string(sum.compared));
-  testing::Test::RecordProperty("different", std::to_string(sum.different));
   return sum;
 }
 
 TEST(Contraction, AlikeEverywhereLeavesSharedPointsEqual) {
-  for (const Shared& s :
-       {shared<Contraction::kNone>(), shared<Contraction::kLeft>(), shared<Contraction::kRight>()}) {
-    EXPECT_GT(s.compared, 20'000);
-    EXPECT_EQ(s.different, 0);
-  }
+  for (const int depth : {1, 3, 4})  // from depth 4 on edges have origins of their own
+    for (const Shared& s : {shared<Contraction::kNone>(depth), shared<Contraction::kLeft>(depth),
+                            shared<Contraction::kRight>(depth)}) {
+      EXPECT_GT(s.compared, 2'000);
+      EXPECT_EQ(s.different, 0);
+    }
 }
 
+// Which places are treated alike is drawn, and depends on the compiler of this program, too. Seen with g++ 12 at depth 3:
+// of 13 636 copies 497 positions and 2181 normals, and none of eight draws without positions.
 TEST(Contraction, OfEachCopyInItsOwnWayDoesNot) {
-  const Shared s = shared<Contraction::kByCallSite>();
-  EXPECT_GT(s.different, s.compared / 100);
+  for (which_compiler = 0; which_compiler < 8; ++which_compiler) {
+    const Shared s = shared<Contraction::kByCallSite>(3);
+    EXPECT_GT(s.different, s.compared / 100) << which_compiler;
+  }
+  which_compiler = 0;
 }
 
 // A planted fault: what does not contract at all is no model.

@@ -20,7 +20,7 @@ packages=(
   dpkg-dev file                                             # the Debian package
   python3-jsonschema                                        # tests: the reports against their schema
   python3-dev pybind11-dev python3-numpy                    # the Python package
-  libepoxy-dev libegl1 libgl1-mesa-dri libpng-dev pkgconf   # OpenGL without a display, pictures
+  libepoxy-dev libegl1 libgl1 libgl1-mesa-dri libpng-dev pkgconf  # OpenGL without a display, pictures
   valgrind python3-scipy                                    # exact instruction counts; statistics of timings
 )
 if [[ ${1:-} == --dev ]]; then

@@ -13,26 +13,9 @@
 
 #include "fast/frame/sink.h"
 #include "fast/plan/depth.h"
+#include "verify/gl/context.h"
 
 namespace limitcheck::bench {
-
-/// An OpenGL 3.3 core context without window or display (EGL, surfaceless), current on the thread that made
-/// it. Debian's Mesa draws with the processor (llvmpipe) where there is no graphics card. Throws
-/// std::runtime_error and says at which step it failed.
-class GlContext {
- public:
-  GlContext();
-  ~GlContext();
-  GlContext(const GlContext&) = delete;
-  GlContext& operator=(const GlContext&) = delete;
-
-  /// Renderer and version, which every frame rate is reported with.
-  std::string renderer() const;
-
- private:
-  void* display_;
-  void* context_;
-};
 
 /// 8-bit RGB, top row first.
 struct Image {
@@ -81,7 +64,7 @@ class Renderer {
   Image image();
 
  private:
-  GlContext context_;
+  verify::GlContext context_;
   int width_, height_, samples_;
   unsigned program_ = 0, array_ = 0, buffer_ = 0;
   unsigned frame_ = 0, resolved_ = 0;

@@ -93,7 +93,8 @@ CauseKind kind_of(const std::string& check) {
 
 // The label without options.
 std::string base_name(const std::string& label) {
-  if (label.starts_with("program:") || label.find('/') != std::string::npos) return label;
+  if (label.starts_with("program:") || label.starts_with("shader:") || label.find('/') != std::string::npos)
+    return label;
   return label.substr(0, label.find(':'));
 }
 

@@ -220,6 +220,7 @@ void refuse_too_many_points(const verify::AuditMesh& mesh) {
 std::string subject_digest(const lc_subject& subject) {
   std::string file = subject.name;
   if (file.starts_with("program:")) file = file.substr(8, file.find(' ', 8) - 8);
+  if (file.starts_with("shader:")) file.erase(0, 7);
   const std::string found = file_digest(file);
   return !found.empty() ? found : subject.description != nullptr ? subject.description : "";
 }

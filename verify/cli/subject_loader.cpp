@@ -81,6 +81,11 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
   add_value(command, "--program", a.program, "COMMAND",
             "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
             "of verify/host/isolation/PROTOCOL.md");
+  add_value(
+      command, "--shader", a.shader, "FILE",
+      "Audit this GLSL file instead of SUBJECT: a function of a place, compute passes, or a tessellation "
+      "shader, as verify/subject/SHADERS.md has them")
+      ->excludes("--program");
   command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too");
   add_number(command, "--timeout", a.limits.seconds, 0.001, 86400.0,
              "Seconds a process may take for one answer")
@@ -93,18 +98,20 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
   add_value(command, "--witness-folder", a.witness_folder, "DIR",
             "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
       ->capture_default_str();
-  group(command, "Subjects of your own (libraries and programs run in a process of their own)",
-        {"--program", "--isolate", "--timeout", "--memory", "--containment", "--witness-folder"});
+  group(command, "Subjects of your own (libraries, programs and shaders run in a process of their own)",
+        {"--program", "--shader", "--isolate", "--timeout", "--memory", "--containment", "--witness-folder"});
 }
 
 void take_program(const SubjectArguments& a, std::string& subject, std::vector<std::string>& meshes) {
-  if (a.program.empty()) return;
+  if (a.program.empty() && a.shader.empty()) return;
   if (!subject.empty()) meshes.insert(meshes.begin(), subject);
-  subject = "program:" + a.program;
+  subject = a.program.empty() ? "shader:" + a.shader : "program:" + a.program;
 }
 
 void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std::string>& meshes) {
-  if (!a.program.empty() || subject.empty() || subject == "all" || subject.starts_with("program:")) return;
+  if (!a.program.empty() || !a.shader.empty() || subject.empty() || subject == "all" ||
+      subject.starts_with("program:") || subject.starts_with("shader:"))
+    return;
   if (verify::find_subject(subject.substr(0, subject.find(':'))) != nullptr) return;
   for (const verify::MissingSubject& missing : verify::missing_subjects())
     if (missing.name == subject) return;
@@ -128,6 +135,9 @@ SubjectLoader::SubjectLoader(SubjectArguments arguments) : arguments_(std::move(
 const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {
   verify::IsolationSettings settings{arguments_.limits, {}, arguments_.witness_folder, in_turns};
   if (kind == Kind::kLibrary) settings.worker = find_program("worker");
+  if (kind == Kind::kShader && (settings.worker = find_program("shader")).empty())
+    throw data::ArgumentError(
+        "limitcheck-shader, which runs shaders, is not where it belongs: beside limitcheck");
   if (settings.worker.empty()) settings.worker = "/proc/self/exe";
   remote_.push_back(std::make_unique<verify::RemoteSubject>(kind, what, settings));
   return &remote_.back()->subject();
@@ -172,6 +182,10 @@ verify::AuditSubject SubjectLoader::built_in(const lc_subject& subject) {
 
 verify::AuditSubject SubjectLoader::open(const std::string& text) {
   if (text.starts_with("program:")) return {remote(Kind::kProgram, text.substr(8)), ""};
+  if (text.starts_with("shader:") || (text.ends_with(".glsl") && is_file(text))) {
+    const std::string file = text.starts_with("shader:") ? text.substr(7) : text;
+    return {remote(Kind::kShader, file), "", remote(Kind::kShader, file, true)};
+  }
 
   // A file name may contain a colon: the longest that exists wins.
   std::size_t colon = is_file(text) ? std::string::npos : text.find(':');
@@ -192,9 +206,10 @@ verify::AuditSubject SubjectLoader::open(const std::string& text) {
     if (missing.name == name) throw data::ArgumentError(missing.why);
   std::string known = "all";
   for (const lc_subject* s : verify::built_in_subjects()) known += fmt::format(", {}", s->name);
-  throw data::ArgumentError(fmt::format(
-      "there is no subject '{}'; there are: {}, shared libraries (./lib{}.so) and programs (program:COMMAND)",
-      name, known, name));
+  throw data::ArgumentError(
+      fmt::format("there is no subject '{}'; there are: {}, shared libraries (./lib{}.so), programs "
+                  "(program:COMMAND) and shaders (shader:FILE)",
+                  name, known, name));
 }
 
 }  // namespace limitcheck::cli

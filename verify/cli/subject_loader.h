@@ -14,7 +14,7 @@
 namespace limitcheck::cli {
 
 struct SubjectArguments {
-  std::string program;
+  std::string program, shader;
   bool isolate = false;
   verify::ProcessLimits limits;
   std::string witness_folder = "limitcheck-witness";
@@ -24,7 +24,7 @@ void add_subject_options(CLI::App& command, SubjectArguments& arguments);
 /// --option: key=value,... for the subject.
 void add_subject_settings(CLI::App& command, std::vector<std::string>& options);
 
-/// With --program there is no SUBJECT among the positional arguments: what was taken for one is the first mesh.
+/// With --program or --shader there is no SUBJECT among the positional arguments: what was taken for one is the first mesh.
 void take_program(const SubjectArguments& arguments, std::string& subject, std::vector<std::string>& meshes);
 
 /// `audit MESH` without a subject means all of them: if SUBJECT names a mesh and no subject, it becomes the
@@ -37,7 +37,7 @@ class SubjectLoader {
   /// Forks (use_launcher()): make it before there is much in memory.
   explicit SubjectLoader(SubjectArguments arguments);
 
-  /// NAME, FILE.so, an executable, or program:COMMAND; all but the last may be followed by ":key=value,...".
+  /// NAME, FILE.so, an executable, program:COMMAND or shader:FILE; all but the last two may be followed by ":key=value,...".
   /// Returns the subject with those options. Throws data::ArgumentError: there is no such subject.
   verify::AuditSubject open(const std::string& text);
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# OpenSubdiv's CPU library as OpenSubdiv::osdCPU. Debian's own package file demands a static library that Debian does
-# not ship, so this looks for header and shared library itself.
+# OpenSubdiv's libraries as OpenSubdiv::osdCPU and OpenSubdiv::osdGPU. Debian's own package file demands a static library that Debian does
+# not ship, so this looks for headers and shared libraries itself.
 find_path(OpenSubdiv_INCLUDE_DIR opensubdiv/version.h)
 find_library(OpenSubdiv_LIBRARY NAMES osdCPU)
-mark_as_advanced(OpenSubdiv_INCLUDE_DIR OpenSubdiv_LIBRARY)
+find_library(OpenSubdiv_GPU_LIBRARY NAMES osdGPU)
+mark_as_advanced(OpenSubdiv_INCLUDE_DIR OpenSubdiv_LIBRARY OpenSubdiv_GPU_LIBRARY)
 
 if(OpenSubdiv_INCLUDE_DIR)
   # 3.5.0 is written as 30500.
@@ -20,11 +21,15 @@ endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenSubdiv
-  REQUIRED_VARS OpenSubdiv_LIBRARY OpenSubdiv_INCLUDE_DIR VERSION_VAR OpenSubdiv_VERSION)
+  REQUIRED_VARS OpenSubdiv_LIBRARY OpenSubdiv_GPU_LIBRARY OpenSubdiv_INCLUDE_DIR VERSION_VAR OpenSubdiv_VERSION)
 
 if(OpenSubdiv_FOUND AND NOT TARGET OpenSubdiv::osdCPU)
   add_library(OpenSubdiv::osdCPU UNKNOWN IMPORTED)
   set_target_properties(OpenSubdiv::osdCPU PROPERTIES
     IMPORTED_LOCATION "${OpenSubdiv_LIBRARY}"
     INTERFACE_INCLUDE_DIRECTORIES "${OpenSubdiv_INCLUDE_DIR}")
+  add_library(OpenSubdiv::osdGPU UNKNOWN IMPORTED)
+  set_target_properties(OpenSubdiv::osdGPU PROPERTIES
+    IMPORTED_LOCATION "${OpenSubdiv_GPU_LIBRARY}"
+    INTERFACE_LINK_LIBRARIES OpenSubdiv::osdCPU)
 endif()

@@ -12,6 +12,7 @@
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"
+#include "verify/subject/devices.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -115,6 +116,7 @@ std::string header(const Report& report) {
       faces);
   if (!report.containment.empty())
     out += fmt::format("subjects in processes of their own: {}\n", report.containment);
+  for (const auto& [subject, device] : Devices::noted()) out += fmt::format("{} on {}\n", subject, device);
   if (report.left_out.empty()) return out;
   std::vector<std::string_view> kept;
   for (const CheckGroup& g : check_groups(report))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verify/subject/registry.h"
 
+#include "verify/gl/context.h"
+
 namespace limitcheck::verify {
 
 std::vector<const lc_subject*> built_in_subjects() {
@@ -13,14 +15,20 @@ std::vector<const lc_subject*> built_in_subjects() {
                                      lc_subject_cgal(),
                                      lc_subject_openmesh(),
                                      lc_subject_embree()};
-  if (const lc_subject* vtk = lc_subject_vtk()) all.push_back(vtk);
+  for (const lc_subject* maybe : {lc_subject_vtk(), lc_subject_opensubdiv_gl()})
+    if (maybe != nullptr) all.push_back(maybe);
   return all;
 }
 
 std::vector<MissingSubject> missing_subjects() {
-  if (lc_subject_vtk() != nullptr) return {};
-  return {{"vtk",
-           "this build has no vtk: VTK 9 was not there when it was configured (Debian package libvtk9-dev)"}};
+  std::vector<MissingSubject> missing;
+  if (lc_subject_vtk() == nullptr)
+    missing.push_back(
+        {"vtk",
+         "this build has no vtk: VTK 9 was not there when it was configured (Debian package libvtk9-dev)"});
+  if (!lack_of_gl().empty())
+    missing.push_back({"opensubdiv-gl", "this machine has no opensubdiv-gl: " + lack_of_gl()});
+  return missing;
 }
 
 const lc_subject* find_subject(std::string_view name) {

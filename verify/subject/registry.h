@@ -15,6 +15,7 @@ const lc_subject* lc_subject_row_stream();
 const lc_subject* lc_subject_opensubdiv_far();
 const lc_subject* lc_subject_opensubdiv_far_patches();
 const lc_subject* lc_subject_opensubdiv_bfr();
+const lc_subject* lc_subject_opensubdiv_gl();  // nullptr: this machine has no libraries of OpenGL
 const lc_subject* lc_subject_cgal();
 const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_embree();
@@ -33,7 +34,7 @@ namespace limitcheck::verify {
 /// The tessellators, in the order in which they are listed and audited.
 std::vector<const lc_subject*> built_in_subjects();
 
-/// A tessellator that this build could have and does not, and what it lacks.
+/// A tessellator that this build, or this machine, could have and does not, and what it lacks.
 struct MissingSubject {
   std::string name, why;
 };

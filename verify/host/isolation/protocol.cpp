@@ -237,6 +237,7 @@ Capabilities read_capabilities(Source& source) {
     c.channel_derivatives = header.flag("channel_derivatives");
   if (version > 1 && header.has("points_anywhere")) c.points_anywhere = header.flag("points_anywhere");
   if (header.has("options")) result.options = header.text("options");
+  if (header.has("device")) result.device = printable(header.text("device"), 200);
   if (header.has("payload"))
     result.payload = header.choice("payload", {"binary", "text"}) == 0 ? Payload::kBinary : Payload::kText;
   return result;

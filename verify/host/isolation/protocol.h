@@ -46,6 +46,7 @@ struct Capabilities {
   Payload payload = Payload::kBinary;  // of everything after this answer, both ways
   int version = kVersion;              // likewise
   std::string options;                 // what options it takes, in words; may be empty
+  std::string device;                  // what it computes on besides the processor; may be empty
 };
 
 /// Requests, ready to be sent.

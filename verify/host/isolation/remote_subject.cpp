@@ -18,6 +18,7 @@
 #include "data/io/write.h"
 #include "data/validate.h"
 #include "verify/subject/control_mesh.h"
+#include "verify/subject/devices.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/shell_word.h"
 
@@ -63,8 +64,8 @@ struct RemoteCalls {
   static std::string save_input(const RemoteSubject& s, const Call& call) try {
     const bool program = s.kind_ == RemoteSubject::Kind::kProgram;
     const ProcessLimits& limits = s.settings_.limits;
-    std::string command =
-        fmt::format("limitcheck audit {}{}", program ? "--program " : "", shell_word(s.what_));
+    std::string command = fmt::format("limitcheck audit {}{}", program ? "--program " : "",
+                                      shell_word(program ? s.what_ : s.name_));
     std::string rest = s.kind_ == RemoteSubject::Kind::kBuiltIn ? " --isolate" : "";
     if (!call.options.empty()) rest += fmt::format(" --options {}", shell_word(call.options));
     if (limits.seconds != ProcessLimits().seconds) rest += fmt::format(" --timeout {}", limits.seconds);
@@ -145,6 +146,7 @@ struct RemoteCalls {
       s.capabilities_ = protocol::read_capabilities(*child);
       s.options_text_ = s.capabilities_.options;
       s.subject_.options = s.options_text_.c_str();
+      if (!s.capabilities_.device.empty()) Devices::note(s.name_, s.capabilities_.device);
       const lc_scheme scheme = out->scheme;
       *out = s.capabilities_.values;
       out->size = sizeof *out;
@@ -233,7 +235,10 @@ struct RemoteCalls {
 RemoteSubject::RemoteSubject(Kind kind, std::string what, IsolationSettings settings)
     : kind_(kind),
       what_(std::move(what)),
-      name_(kind == Kind::kProgram ? "program:" + what_ : what_),
+      name_((kind == Kind::kProgram  ? "program:"
+             : kind == Kind::kShader ? "shader:"
+                                     : "") +
+            what_),
       settings_(std::move(settings)) {
   auto& slots = RemoteCalls::slots();
   while (slot_ < slots.size() && slots[slot_] != nullptr) ++slot_;
@@ -254,7 +259,9 @@ RemoteSubject::~RemoteSubject() {
 }
 
 std::unique_ptr<ChildProcess> RemoteSubject::start() {
-  const char* const kind = kind_ == Kind::kLibrary ? "library" : "built-in";
+  const char* const kind = kind_ == Kind::kLibrary  ? "library"
+                           : kind_ == Kind::kShader ? "shader"
+                                                    : "built-in";
   std::vector<std::string> command{settings_.worker, "worker", kind, what_};
   if (kind_ == Kind::kProgram) command = {"/bin/sh", "-c", what_};
   if (settings_.in_turns) command.emplace_back("--in-turns");

@@ -14,8 +14,8 @@ namespace limitcheck::verify {
 
 struct IsolationSettings {
   ProcessLimits limits;
-  /// The program that serves libraries and built-in subjects: `WORKER worker library FILE`, `WORKER worker
-  /// built-in NAME`. It calls serve() (worker.h).
+  /// The program that serves libraries, shaders and built-in subjects: `WORKER worker library FILE`, `WORKER worker
+  /// shader FILE`, `WORKER worker built-in NAME`. It calls serve() (worker.h).
   std::string worker = "/proc/self/exe";
   /// Where the control mesh and the depths of a breakdown are saved; empty: nowhere.
   std::string witness_folder;
@@ -28,15 +28,15 @@ struct IsolationSettings {
 /// One session at a time from one thread; destroy() throws if the process does not end in good order.
 class RemoteSubject {
  public:
-  enum class Kind { kLibrary, kProgram, kBuiltIn };
-  /// `what`: a file, a command for /bin/sh, the name of a built-in subject. Starts nothing. Throws
+  enum class Kind { kLibrary, kProgram, kBuiltIn, kShader };
+  /// `what`: a file (of a library, of a shader), a command for /bin/sh, the name of a built-in subject. Starts nothing. Throws
   /// data::ArgumentError: more than 64 at a time.
   RemoteSubject(Kind kind, std::string what, IsolationSettings settings);
   ~RemoteSubject();
   RemoteSubject(const RemoteSubject&) = delete;
   RemoteSubject& operator=(const RemoteSubject&) = delete;
 
-  /// Valid as long as this. Its name is `what`, "program:" in front of a command.
+  /// Valid as long as this. Its name is `what`, "program:" in front of a command, "shader:" in front of a shader.
   const lc_subject& subject() const { return subject_; }
 
   /// How its last process was contained; none if there was no process yet.

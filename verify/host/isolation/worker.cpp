@@ -22,6 +22,7 @@
 #include "verify/host/in_turns.h"
 #include "verify/host/isolation/header.h"
 #include "verify/host/subject_call.h"
+#include "verify/subject/devices.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/subject_error.h"
 
@@ -94,8 +95,11 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
   } catch (const SubjectDied& wrong) {
     return {{"limitcheck", protocol::kVersion}, {"status", "ok"}, {"impossible", wrong.what()}};
   }
+  std::string device;
+  for (const auto& [name, noted] : Devices::noted()) device = noted;  // of the one subject of this process
   return {{"limitcheck", protocol::kVersion},
           {"status", "ok"},
+          {"device", device},
           {"precision", c.precision == LC_FLOAT32 ? "float32" : "float64"},
           {"weights", c.weights == LC_WEIGHTS_LOOP ? "loop" : "warren"},
           {"boundary", c.boundary == LC_BOUNDARY_SPLINE ? "spline" : "none"},

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Programs and buffers of OpenGL 4.5, for what computes and draws nothing. A context is current in all of it; every
+// function throws std::runtime_error if OpenGL refuses.
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace limitcheck::verify {
+
+/// Lines of a shader from here on are no user's: `#line` says which number the next one has.
+inline constexpr int kNotOfTheFile = 1'000'000;
+
+/// A program of shaders, made current by use().
+class GlProgram {
+ public:
+  struct Stage {
+    GLenum kind;
+    std::string text;
+  };
+  /// Lines below kNotOfTheFile are those of `file`: messages name them. (Mesa passes over the number of a source in #line.)
+  ///   captured  what transform feedback writes, one after the other in one buffer
+  GlProgram(const std::vector<Stage>& stages, const std::string& file,
+            const std::vector<const char*>& captured = {});
+  ~GlProgram();
+  GlProgram(const GlProgram&) = delete;
+  GlProgram& operator=(const GlProgram&) = delete;
+
+  void use() const;
+  /// Of the program in use; a name that it has not is passed over.
+  void set(const char* uniform, std::int32_t value) const;
+  /// Runs it on so many items in groups of the size that the shader has: item k is
+  /// gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x. What it writes is there for all
+  /// that comes after it.
+  void compute(std::int64_t items) const;
+
+ private:
+  GLuint program_ = 0;
+};
+
+/// Memory of the device with a guard zone behind it, in which a pattern shows what is written there. All bytes before it
+/// are 0xFF: a NaN, and no index.
+class GuardedBuffer {
+ public:
+  static constexpr std::size_t kGuard = 1 << 16;
+
+  explicit GuardedBuffer(std::size_t bytes);
+  ~GuardedBuffer();
+  GuardedBuffer(const GuardedBuffer&) = delete;
+  GuardedBuffer& operator=(const GuardedBuffer&) = delete;
+  GuardedBuffer(GuardedBuffer&& other) noexcept : size_(other.size_), name_(std::exchange(other.name_, 0)) {}
+
+  std::size_t size() const { return size_; }
+  GLuint name() const { return name_; }
+  /// As a shader's storage buffer, with its guard zone.
+  void bind(GLuint binding) const;
+  /// size() bytes, then those of the guard zone up to the last one that is not as it was.
+  std::vector<std::byte> read() const;
+
+ private:
+  std::size_t size_;
+  GLuint name_ = 0;
+};
+
+/// A storage buffer that is read alone.
+class InputBuffer {
+ public:
+  explicit InputBuffer(std::span<const std::int32_t> words);
+  ~InputBuffer();
+  InputBuffer(const InputBuffer&) = delete;
+  InputBuffer& operator=(const InputBuffer&) = delete;
+  void bind(GLuint binding) const;
+
+ private:
+  GLuint name_ = 0;
+};
+
+/// What transform feedback captured of patches of one vertex each, drawn as triangles: `words` numbers for each vertex. They
+/// are drawn at most `kMostPatches` at a time, the first one's number in the uniform lc_first_patch: Mesa's llvmpipe numbers the
+/// patches of a call anew from 0 after 1024.
+std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_t patches, std::size_t words);
+inline constexpr std::int64_t kMostPatches = 1024;
+
+/// Throws if OpenGL has reported an error since it was asked last.
+void check_gl(const char* step);
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "verify/shader/prelude.h"
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "verify/subject/subject_error.h"
+
+namespace limitcheck::verify {
+
+namespace {
+
+constexpr const char* kMesh = R"(
+layout(std430, binding = 0) readonly buffer lc_Input { int lc_input[]; };
+uniform int lc_V, lc_F, lc_C, lc_E, lc_depth, lc_level, lc_items, lc_places, lc_vertices, lc_triangles, lc_first_patch;
+float lc_number(int k) { return intBitsToFloat(lc_input[k]); }
+vec3 lc_position(int v) { return vec3(lc_number(3 * v), lc_number(3 * v + 1), lc_number(3 * v + 2)); }
+int lc_vertex(int h) { return lc_input[3 * lc_V + h]; }
+int lc_twin(int h) { return lc_input[3 * lc_V + lc_C + h]; }
+int lc_edge(int h) { return lc_input[3 * lc_V + 2 * lc_C + h]; }
+int lc_face(int h) { return lc_input[3 * lc_V + 3 * lc_C + h]; }
+float lc_sharpness(int h) { return lc_number(3 * lc_V + 4 * lc_C + h); }
+int lc_first(int f) { return lc_input[3 * lc_V + 5 * lc_C + f]; }
+int lc_size(int f) { return lc_first(f + 1) - lc_first(f); }
+float lc_vertex_sharpness(int v) { return lc_number(3 * lc_V + 5 * lc_C + lc_F + 1 + v); }
+int lc_next(int h) { return h + 1 < lc_first(lc_face(h) + 1) ? h + 1 : lc_first(lc_face(h)); }
+ivec4 lc_counts(int steps) {
+  ivec4 n = ivec4(lc_V, lc_F, lc_C, lc_E);
+  for (int k = 0; k < steps; ++k)
+#ifdef LC_LOOP
+    n = ivec4(n.x + n.w, 4 * n.y, 12 * n.y, 2 * n.w + 3 * n.y);
+#else
+    n = ivec4(n.x + n.w + n.y, n.z, 4 * n.z, 2 * n.w + n.z);
+#endif
+  return n;
+}
+int lc_prev(int h) { return h > lc_first(lc_face(h)) ? h - 1 : lc_first(lc_face(h) + 1) - 1; }
+)";
+
+constexpr const char* kCompute = R"(
+layout(std430, binding = 1) buffer lc_Output { int lc_output[]; };
+#define lc_item int(gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x)
+void lc_put_vector(int k, vec3 x) {
+  lc_output[4 + 3 * k] = floatBitsToInt(x.x);
+  lc_output[5 + 3 * k] = floatBitsToInt(x.y);
+  lc_output[6 + 3 * k] = floatBitsToInt(x.z);
+}
+void lc_put_vertex(int k, vec3 position, vec3 normal) {
+  if (k < 0) atomicMin(lc_output[1], k - 1);
+  else if (k >= lc_vertices) atomicMax(lc_output[0], k);
+  else { lc_put_vector(k, position); lc_put_vector(lc_vertices + k, normal); }
+}
+void lc_put_vertex(int k, vec3 position) { lc_put_vertex(k, position, vec3(0)); }
+void lc_put_triangle(int k, int a, int b, int c) {
+  if (k < 0) atomicMin(lc_output[3], k - 1);
+  else if (k >= lc_triangles) atomicMax(lc_output[2], k);
+  else {
+    int at = 4 + 6 * lc_vertices + 3 * k;
+    lc_output[at] = a; lc_output[at + 1] = b; lc_output[at + 2] = c;
+  }
+}
+)";
+
+constexpr const char* kPlace = R"(
+struct lc_place { int face, corner, i, j, denominator; vec2 uv; };
+)";
+constexpr const char* kEachPlace = R"(
+void main() {
+  int k = lc_item;
+  if (k >= lc_items) return;
+  int w = lc_places + 5 * k;
+  lc_place at = lc_place(lc_input[w], lc_input[w + 1], lc_input[w + 2], lc_input[w + 3], lc_input[w + 4], vec2(0));
+  at.uv = vec2(at.i, at.j) / float(at.denominator);
+  vec3 position, normal;
+  lc_evaluate(at, position, normal);
+  lc_put_vertex(k, position, normal);
+}
+)";
+
+constexpr const char* kPatch = R"(
+int lc_patch_word(int k) { return lc_input[lc_places + 3 * (gl_PrimitiveID + lc_first_patch) + k]; }
+#define lc_patch_face lc_patch_word(0)
+#define lc_patch_corner lc_patch_word(1)
+#define lc_patch_steps lc_patch_word(2)
+)";
+constexpr const char* kPut = R"(
+#define LC_EVALUATION 1
+out vec3 lc_out_position, lc_out_normal;
+flat out ivec2 lc_out_place;
+out vec2 lc_out_uv;
+void lc_put(vec3 position, vec3 normal, int face, int corner, vec2 uv) {
+  lc_out_position = position; lc_out_normal = normal; lc_out_place = ivec2(face, corner); lc_out_uv = uv;
+}
+)";
+constexpr const char* kControl = R"(
+layout(vertices = 1) out;
+void main() {
+  for (int k = 0; k < 4; ++k) gl_TessLevelOuter[k] = float(lc_patch_steps);
+  for (int k = 0; k < 2; ++k) gl_TessLevelInner[k] = float(lc_patch_steps);
+}
+)";
+
+}  // namespace
+
+std::vector<std::unique_ptr<GlProgram>> compiled(const ShaderSource& source, lc_scheme scheme) {
+  const std::string begin = fmt::format("#version 450 core\n#line {}\n#define {} 1\n{}", kNotOfTheFile,
+                                        scheme == LC_SCHEME_LOOP ? "LC_LOOP" : "LC_CATMULL_CLARK", kMesh),
+                    user = fmt::format("#line 1\n{}\n#line {}\n", source.text, kNotOfTheFile),
+                    group = source.own_group ? "" : "layout(local_size_x = 64) in;\n";
+  std::vector<std::unique_ptr<GlProgram>> programs;
+  const auto add = [&](const std::vector<GlProgram::Stage>& stages,
+                       const std::vector<const char*>& captured = {}) {
+    programs.push_back(std::make_unique<GlProgram>(stages, source.file, captured));
+  };
+  try {
+    switch (source.form) {
+      case ShaderSource::Form::kFunction:
+        add({{GL_COMPUTE_SHADER, begin + group + kCompute + kPlace + user + kEachPlace}});
+        break;
+      case ShaderSource::Form::kPasses:
+        for (const ShaderSource::Pass& pass : source.passes)
+          add({{GL_COMPUTE_SHADER, begin + group + kCompute + "#define " + pass.name + " 1\n" + user}});
+        break;
+      case ShaderSource::Form::kTessellation:
+        add({{GL_VERTEX_SHADER, "#version 450 core\nvoid main() {}\n"},
+             {GL_TESS_CONTROL_SHADER,
+              begin + kPatch +
+                  (source.own_control ? "#define LC_CONTROL 1\n" + user : std::string(kControl))},
+             {GL_TESS_EVALUATION_SHADER, begin + kPatch + kPut + user}},
+            {"lc_out_position", "lc_out_normal", "lc_out_place", "lc_out_uv"});
+        break;
+    }
+  } catch (const std::runtime_error& error) {
+    throw SubjectError(LC_INVALID_INPUT, error.what());
+  }
+  return programs;
+}
+
+}  // namespace limitcheck::verify

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// The shader door as a user meets it: the templates are right, each planted fault is seen, and no audit ends with it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "verify/cli/command_test.h"
+#include "verify/shader/source.h"
+#include "verify/subject/subject_error.h"
+
+namespace limitcheck::cli {
+namespace {
+
+using nlohmann::json;
+const std::filesystem::path kTemplates =
+    std::filesystem::path(LIMITCHECK_SOURCE_DIR) / "verify/subject/examples/shaders";
+
+class ShaderDoor : public CommandTest {
+ protected:
+  /// A template in which this stands once, changed, as file `wrong.glsl`.
+  void plant(const std::string& file, const std::string& right, const std::string& wrong) const {
+    std::string text = contents_of(kTemplates / file);
+    const std::size_t place = text.find(right);
+    ASSERT_NE(place, std::string::npos) << right;
+    ASSERT_EQ(text.find(right, place + 1), std::string::npos) << right;
+    write("wrong.glsl", text.replace(place, right.size(), wrong));
+  }
+  json audited(const std::string& arguments, int code) const {
+    return json_of("audit --json - --shader " + arguments, code);
+  }
+  static json row(const json& report, const std::string& check, const std::string& mesh = "quad-torus") {
+    for (const json& r : report["results"])
+      if (r["check"] == check && r["mesh"] == mesh) return r;
+    return {};
+  }
+  static std::string status(const json& report, const std::string& check,
+                            const std::string& mesh = "quad-torus") {
+    return row(report, check, mesh).value("status", "no such row");
+  }
+};
+
+// All vertices of quad-torus have four faces: its patches are bicubic B-splines. Positions and normals are judged, and bits
+// of shared points; that turned faces give other bits is a warning.
+TEST_F(ShaderDoor, TheTemplatesOfAFunctionAndOfATessellationShaderHoldOnARegularTorus) {
+  for (const std::string file : {"function.glsl", "tessellation.glsl"}) {
+    const json report = audited((kTemplates / file).string() + " quad-torus --depth 3", 0);
+    for (const char* check : {"positions", "normals", "shared-positions", "coverage", "written", "finite"})
+      EXPECT_EQ(status(report, check), "held") << file << " " << check;
+    EXPECT_GT(row(report, "positions")["of"], 1000) << file;
+    EXPECT_EQ(report["devices"].size(), 1U);
+  }
+}
+
+TEST_F(ShaderDoor, TheTemplateOfPassesRefinesQuadsAndPolygonsInsideAndAtBoundaries) {
+  const std::string meshes = "quad-cube quad-fan:1 quad-fan:5 prism:5 mixed:1:40";
+  const json report = audited((kTemplates / "passes.glsl").string() + " " + meshes + " --depth 3", 0);
+  int judged = 0;
+  for (const json& r : report["results"])
+    judged += r["check"] == "refined-positions" && r["status"] == "held";
+  EXPECT_EQ(judged, 5);
+}
+
+TEST_F(ShaderDoor, AWrongWeightIsAFindingWithItsWitness) {
+  plant("function.glsl", "t * t + 4.0, 3.0", "t * t + 4.001, 3.0");
+  const json report = audited("wrong.glsl quad-torus quad-torus:5 --depth 2 --level quick", 1);
+  EXPECT_EQ(status(report, "positions"), "finding");
+  // 0.001 / 6 of a coordinate of the torus, which is a quarter of the diagonal from the middle, in each direction
+  EXPECT_GT(row(report, "positions")["worst"], 1e-5);
+  EXPECT_TRUE(says(row(report, "positions")["witness"]["command"], "limitcheck eval quad-torus"));
+}
+
+TEST_F(ShaderDoor, WhatItWritesBehindABufferIsAFinding) {
+  // The pass that splits half-edges runs on 64 at a time, of 36 faces of four corners: 48 too many.
+  plant("passes.glsl", "if (k >= lc_items) return;", "");
+  const json report = audited("wrong.glsl quad-torus:6:6 quad-cube --depth 2 --level quick", 1);
+  EXPECT_EQ(status(report, "written", "quad-cube"), "finding");
+  EXPECT_TRUE(says(row(report, "written", "quad-cube")["message"], "behind"));
+}
+
+TEST_F(ShaderDoor, AVertexThatIsNoneIsAFinding) {
+  plant("passes.glsl", "lc_put_vertex(k, point(level, k));", "lc_put_vertex(k + 3, point(level, k));");
+  const json report = audited("wrong.glsl quad-torus --depth 1 --level quick", 1);
+  const std::string message = row(report, "written")["message"];
+  EXPECT_TRUE(says(message, "36 bytes")) << message;  // three vertices of three floats
+}
+
+TEST_F(ShaderDoor, WhatDoesNotCompileIsNamedWithTheLineOfTheFile) {
+  plant("function.glsl", "    position += wv[j] * row;", "    position += wv[j] * rows;");
+  std::istringstream lines(read("wrong.glsl"));
+  int number = 1;
+  for (std::string line; std::getline(lines, line) && !line.ends_with(" rows;");) ++number;
+  const Outcome o = run("audit --shader wrong.glsl quad-torus", 2);
+  EXPECT_TRUE(says(o.err, "wrong.glsl:" + std::to_string(number) + ":")) << o.err;
+  EXPECT_TRUE(says(o.err, "rows")) << o.err;
+}
+
+// llvmpipe ends a loop after 65535 turns: one inside another takes a minute and more.
+TEST_F(ShaderDoor, ALoopWithoutEndIsAFindingAndTheAuditGoesOn) {
+  plant("function.glsl", "  position = vec3(0);\n",
+        "  position = vec3(0);\n  if (lc_F > 6)\n    for (int a = 0; a < 1000000000; ++a)\n"
+        "      for (int b = 0; b < 1000000000; ++b) position.x = position.x * 0.999 + at.uv.x;\n");
+  const json report = audited("wrong.glsl quad-torus quad-cube --depth 1 --level quick --timeout 3", 1);
+  EXPECT_EQ(status(report, "tessellates"), "timeout");
+  EXPECT_EQ(status(report, "written", "quad-cube"), "held");
+}
+
+TEST_F(ShaderDoor, NotANumberIsAFinding) {
+  plant("function.glsl", "  normal = normalize(cross(along_u, along_v));",
+        "  normal = normalize(cross(along_u, along_v));\n  if (at.face == 3) position.y = sqrt(-1.0 - "
+        "at.uv.x);");
+  const json report = audited("wrong.glsl quad-torus --depth 1 --level quick", 1);
+  EXPECT_EQ(status(report, "finite"), "finding");
+  EXPECT_EQ(row(report, "finite")["count"], 9);  // the points of that face
+}
+
+TEST_F(ShaderDoor, PragmasThatMeanNothingAreRefusedWithTheirLine) {
+  for (const auto& [line, what] : {std::pair{"#pragma limitcheck scheme looop", "looop"},
+                                   {"#pragma limitcheck max-depth eleven", "eleven"},
+                                   {"#pragma limitcheck pass FACES F( 1..2", "F("},
+                                   {"#pragma limitcheck wish all", "wish"}}) {
+    write("wrong.glsl", std::string("// a shader\n") + line + "\n");
+    const Outcome o = run("audit --shader wrong.glsl quad-cube", 2);
+    EXPECT_TRUE(says(o.err, "wrong.glsl:2: ")) << o.err;
+    EXPECT_TRUE(says(o.err, what)) << o.err;
+  }
+  write("wrong.glsl", "void main() {}\n");
+  EXPECT_TRUE(says(run("audit --shader wrong.glsl quad-cube", 2).err, "lc_evaluate"));
+  EXPECT_TRUE(says(run("audit --shader there-is-none.glsl quad-cube", 2).err, "there-is-none.glsl"));
+}
+
+}  // namespace
+}  // namespace limitcheck::cli
+
+namespace limitcheck::verify {
+namespace {
+
+// A cube has 8 vertices and 6 quads, an octahedron 6 and 8 triangles. Steps keep V - E + F = 2, each quad becomes four, and so
+// does each triangle; each edge of a closed mesh belongs to two faces.
+TEST(Formula, CountsWhatStepsOfSubdivisionMake) {
+  const MeshCounts cube{LC_SCHEME_CATMULL_CLARK, {8, 6, 24, 12}, 2, 1};
+  const MeshCounts octahedron{LC_SCHEME_LOOP, {6, 8, 24, 12}, 2, 1};
+  EXPECT_EQ(Formula("F(d)").value(cube), 96);
+  EXPECT_EQ(Formula("E(d)").value(cube), 192);
+  EXPECT_EQ(Formula("V(2)").value(cube), 98);
+  EXPECT_EQ(Formula("C(level)").value(octahedron), 96);
+  EXPECT_EQ(Formula("V(d)-E(d)+F(d)").value(octahedron), 2);
+  EXPECT_EQ(Formula("12*C*4^(d+1)/2-1").value(cube), 12 * 24 * 64 / 2 - 1);
+  EXPECT_EQ(Formula("d-3").value(cube), -1);
+  for (const char* wrong : {"", "V+", "(V", "V)", "x", "V V", "1/0", "2^41", "V(0-1)", "9999999999999999999"})
+    EXPECT_THROW((void)Formula(wrong).value(cube), SubjectError) << wrong;
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

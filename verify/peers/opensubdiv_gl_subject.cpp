@@ -56,6 +56,7 @@ class Evaluated {
       std::memcpy(to_dv, from_[2] + 12 * next_, 12);
       ++next_;
     }
+    void channel(std::size_t, std::int32_t, const float*, float*) {}  // it declares none
 
    private:
     const std::array<const std::byte*, 3>& from_;

@@ -36,6 +36,7 @@ class AnywhereSubject {
     // One depth for all, or edges would have points of one face and not of the other.
     const auto deepest = *std::max_element(request.face_depth, request.face_depth + mesh_.faces.size());
     DeliveredArrays made;
+    shared_.clear();  // which face is asked first depends on which are culled
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
       if (request.face_depth[f] >= 0) add_face(static_cast<std::int32_t>(f), deepest, made);
     made.hand_over<double>(request, out, true, scheme_ == data::Scheme::kCatmullClark);

@@ -243,10 +243,22 @@ SurfacePoint<double> evaluate_on(const CutSurface& surface, int face, int corner
                                                                           Derivatives::kFirst);
 }
 
+// Whether no edge whose sharpness falls by edges on both sides of a seam ends at face 0. Of others its values do not know.
+bool has_exact_cut(const ChannelTopology& near) {
+  const Topology& topology = near.topology;
+  const auto corners = topology.faces()[0];
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (near.states[k] != ValueState::kMatches)
+      for (const std::int32_t e : topology.sector(corners[k]).edges)
+        if (!topology.edges()[static_cast<std::size_t>(e)].on_boundary() &&
+            Sharpness::is_semi_sharp(near.sharpness.edge(e)))
+          return false;
+  return true;
+}
+
 /// What is near a part of a face, and its cut's surface if that is asked for.
 struct Near {
-  Near(ChannelMesh<double> of, data::TriangleRule triangles)
-      : mesh(std::move(of)), has_cut(cut_and_hold(mesh, triangles).is_exact) {}
+  explicit Near(ChannelMesh<double> of) : mesh(std::move(of)), has_cut(has_exact_cut(mesh)) {}
   ChannelMesh<double> mesh;
   bool has_cut;
   std::map<std::size_t, std::unique_ptr<Near>> finer{};
@@ -264,7 +276,7 @@ struct KeptSteps {
   void to(std::size_t child) {
     std::unique_ptr<Near>& next = at->finer[child];
     if (next == nullptr)
-      next = std::make_unique<Near>(refine_once(at->mesh, scheme, triangles).around(child), triangles);
+      next = std::make_unique<Near>(refine_once(at->mesh, scheme, triangles).around(child));
     at = next.get();
   }
 };
@@ -273,6 +285,11 @@ struct KeptSteps {
 
 data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel) {
   return cut_and_hold(topology_of(mesh, channel, data::ChannelRule::kNone), {}).faces;
+}
+
+bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule) {
+  return mesh.sharpness.creasing == data::Creasing::kUniform ||
+         cut_and_hold(topology_of(mesh, channel, rule), mesh.sharpness.triangles).is_exact;
 }
 
 struct ChannelSurface::Data {
@@ -290,7 +307,7 @@ struct ChannelSurface::Data {
   SurfacePoint<double> by_steps(std::size_t face, int corner, double u, double v) {
     std::unique_lock lock(mutex);
     auto found = near.find(face);
-    if (found == near.end()) found = near.emplace(face, Near(mesh.around(face), triangles)).first;
+    if (found == near.end()) found = near.emplace(face, Near(mesh.around(face))).first;
     KeptSteps steps{&found->second, scheme, triangles};
     const Descent at =
         is_loop() ? descend_triangles(steps, u, v) : descend(steps, corner, Rational(u), Rational(v));

@@ -43,6 +43,10 @@ class ChannelEvaluator {
 /// Throws data::ArgumentError as ChannelEvaluator.
 data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel);
 
+/// Whether a channel is the surface of a cut mesh: not by Chaikin's creasing where a semi-sharp edge ends on a seam. Throws
+/// data::ArgumentError as ChannelEvaluator.
+bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule);
+
 /// The same in double: of the cut, whose errors are those of Surface; where no cut is exact, of the cut after steps on
 /// the whole mesh, which are kept; by the rule `all` a few roundings.
 class ChannelSurface {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reference/channel/channel_mesh.h"
+#include "reference/surface/channel.h"
 #include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify {
@@ -26,8 +27,9 @@ const Channel& uv_of(A a) {
 ChannelRule rule_of(A a) {
   return uv_of(a).rule.value_or(data::kUsualChannelRule);
 }
+// Whether a subject is handed one channel: see Session.
 bool has_channel(A a) {
-  return a.mesh.channels.size() == 1;
+  return a.mesh.channels.size() == 1 && reference::has_exact_cut(a.mesh, uv_of(a), rule_of(a));
 }
 
 Change of_channels(Change c, std::function<bool(A)> shows = {}) {
@@ -307,27 +309,6 @@ std::vector<Change> by_values() {
   };
 }
 
-// The channel of the mesh that is cut along the seams, as its ordinary surface.
-data::ControlMesh cut_along_seams(A a, bool& is_exact) {
-  const reference::ChannelCut cut = reference::cut_and_hold(
-      {a.topology, a.mesh.sharpness, uv_of(a).corners, rule_of(a)}, a.mesh.sharpness.triangles);
-  is_exact = cut.is_exact;
-  data::ControlMesh mesh;
-  mesh.faces = cut.faces;
-  Channel& uv = mesh.channels.emplace_back(Channel{"uv", 2, {}, {}, ChannelRule::kNone});
-  for (const std::size_t c : cut.corner_of) {
-    mesh.positions.push_back(a.mesh.positions[static_cast<std::size_t>(a.mesh.faces.corners()[c])]);
-    uv.values.insert(uv.values.end(), {uv_of(a).at(c, 0), uv_of(a).at(c, 1)});
-  }
-  uv.corners.assign(cut.faces.corners().begin(), cut.faces.corners().end());
-  for (const auto& e : cut.tags.edges)
-    mesh.sharpness.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
-  for (const auto& v : cut.tags.vertices)
-    mesh.sharpness.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
-  mesh.sharpness.creasing = cut.tags.creasing, mesh.sharpness.triangles = cut.tags.triangles;
-  return mesh;
-}
-
 // Of each corner of each triangle: its two derivatives by the first parameter, then those by the second.
 Change derivatives(const char* name, const char* description,
                    std::function<void(A, std::vector<double>&, const Delivered&)> what,
@@ -474,6 +455,8 @@ Change channels(const char* name, const char* description, std::function<void(Me
   c.shows = [what](A a) {
     data::ControlMesh other = a.mesh;
     if (other.channels.size() != 2) return false;
+    for (const Channel& c : other.channels)
+      if (!reference::has_exact_cut(a.mesh, c, c.rule.value_or(data::kUsualChannelRule))) return false;
     what(other);
     return !(other == a.mesh);
   };
@@ -549,20 +532,6 @@ std::vector<Change> by_places() {
                on_boundary),
       on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
                                       [](A a, std::size_t f) { return a.is_polygon(f); })),
-      sharp(of_channels(
-          deliver(
-              "channel_chaikin_in_the_cut", "by Chaikin's creasing sharpness falls in the mesh that is cut",
-              "channel-positions",
-              [](A a, D out) {
-                bool is_exact = false;
-                out.channel_values =
-                    a.again(cut_along_seams(a, is_exact), {a.depth.begin(), a.depth.end()}).channel_values;
-              }),
-          [](A a) {
-            bool is_exact = false;
-            cut_along_seams(a, is_exact);
-            return !is_exact && rule_of(a) < ChannelRule::kBoundaries;
-          })),
       tags_of_channel("channel_without_tags", "channels know no sharp edges and vertices",
                       [](Tags t) { t = {}; }),
       tags_of_channel("channel_without_sharp_vertices", "channels know no sharp vertices",

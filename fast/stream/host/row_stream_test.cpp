@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 
+#include "data/splitmix64.h"
 #include "fast/frame/patch.h"
 #include "fast/stream/host/number_stream.h"
 #include "fast/test_support/refined_limits.h"
@@ -111,6 +113,32 @@ TEST(RowStreamTargets, EachRunsTheCodeItNames) {
     EXPECT_STREQ(
         kernel.run(input.data(), 1, {{{0, 0, 0}, 1}}, work.data(), {row.data(), 32, 0, nullptr, nullptr}),
         kernel.name);
+  }
+}
+
+// Vectors have code of their own for depths 1 to 4, in which strips and corners stay in registers; the plain kernel has
+// one code for all depths.
+TEST(RowStreamTargets, GiveTheBitsOfThePlainKernelWithOriginsOfTheirOwn) {
+  data::SplitMix64 random(3);
+  KernelPlacement<float> placement{{{.1f, -.2f, .3f}, 1.5f}};
+  placement.local_from = 1;
+  for (const Kernel& kernel : kernels()) {
+    for (int depth = 1; depth <= 5; ++depth) {
+      const int lanes = kernel.lanes, count = input_size(depth), numbers = 6 * side(depth) * side(depth);
+      AlignedFloats input, one, work, got, want;
+      input.grow(lanes * count), one.grow(count), work.grow(lanes * work_size(depth));
+      got.grow(lanes * numbers), want.grow(lanes * numbers);
+      for (int k = 0; k < lanes * count; ++k) input.data()[k] = static_cast<float>(random.unit() - .5);
+      for (int lane = 0; lane < lanes; ++lane) {
+        for (int k = 0; k < count; ++k) one.data()[k] = input.data()[k * lanes + lane];
+        kernels().back().run(one.data(), depth, placement, work.data(),
+                             {want.data() + lane * numbers, 0, 6 * side(depth), nullptr, nullptr});
+      }
+      kernel.run(input.data(), depth, placement, work.data(),
+                 {got.data(), numbers, 6 * side(depth), nullptr, nullptr});
+      EXPECT_EQ(std::memcmp(got.data(), want.data(), 4 * want.size()), 0)
+          << kernel.name << " depth " << depth;
+    }
   }
 }
 

@@ -92,8 +92,8 @@ struct RowView : BatchRow {
   std::size_t number(std::size_t lane) const { return first + lane; }
 };
 
-/// A control mesh prepared for the kernel: the rings and limits of its vertices. Read-only afterwards, so
-/// that threads may share it.
+/// A control mesh prepared for the kernel: the rings and limits of its vertices, 256 + 12 n bytes for one of valence n (a
+/// boundary: 376 + 12 n), and 24 bytes a face. Read-only afterwards, so that threads may share it.
 ///
 /// Grids next to a cut are evaluated one by one, by the rules of the sliding window: the kernels have ghosts
 /// beyond a border, which would give its two sides other bits.

@@ -51,7 +51,7 @@ class CutGrids {
   const PreparedMesh<double>& prepared() const { return prepared_; }
   const Adjacency& adjacency() const { return prepared_.adjacency(); }
   static Vertex limit(const Rings& rings, std::int32_t v) {
-    return vertex_from(rings.corner(v).head.data() + CornerBlock::kLimit);
+    return vertex_from(rings.head(v) + CornerBlock::kLimit);
   }
   GridEdges edges(const Grid& grid, Order order) const { return {adjacency(), grid, order}; }
   /// put(j, points) for each row, points(i) of it.

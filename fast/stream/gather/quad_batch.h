@@ -15,23 +15,12 @@ namespace limitcheck::fast::row_stream {
 
 namespace detail {
 
-/// `count` contiguous numbers of each lane to one vector per number. The lanes that remain repeat the last.
-template <class T>
-void put_numbers(const T* const* from, int count, int lanes, T* out) {
-  if (lanes % 4 == 0) {
-    for (int lane = 0; lane < lanes; lane += 4)
-      to_lanes<4, T>(from + lane, nullptr, count, lanes, out + lane);
-  } else {
-    for (int lane = 0; lane < lanes; ++lane) to_lanes<1, T>(from + lane, nullptr, count, lanes, out + lane);
-  }
-}
-
 /// A block of one corner; corner[lane] is its place in the rings. Returns whether some ring is open.
 template <class T>
 bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>::Corner* const* corner,
                 int depth, int lanes, T* block, int& period) {
   using Block = QuadCornerBlock;
-  const T* from[kMaxLanes];
+  const T* from[kMaxLanes] = {};
   bool open = false;
   period = corner[0]->entries;
   for (int lane = 0; lane < lanes; ++lane) {
@@ -39,14 +28,14 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
     open = open || corner[lane]->open;
     if (corner[lane]->entries != period) period = 0;
   }
-  put_numbers(from, Block::kHead, lanes, block);
+  to_lanes<T>(from, Block::kHead, nullptr, lanes, block);
 
   const int width = quad_window_width(depth);
   if (open || period > width) period = 0;
   T* out = block + Block::kWindow * lanes;
   if (period > 0) {
     for (int lane = 0; lane < lanes; ++lane) from[lane] = rings.numbers() + corner[lane]->before;
-    put_numbers(from, 3 * period, lanes, out);
+    to_lanes<T>(from, 3 * period, nullptr, lanes, out);
     return false;
   }
 
@@ -77,7 +66,7 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
       block[Block::kEnds * lanes + lane] = block[(Block::kEnds + 1) * lanes + lane] = T(-1);
     }
   }
-  put_numbers(from, 3 * width, lanes, out);
+  to_lanes<T>(from, 3 * width, nullptr, lanes, out);
   return open;
 }
 
@@ -115,6 +104,24 @@ void put_side(const typename BasicQuadRings<T>::Corner* const* corner, int side,
     flags[lane] = T(corner[lane]->polynomial ? 1 : 0);
 }
 
+/// Corners and sides from A and A B on; half_edge(k, i): that of quad or side i of `size` which leaves at corner k.
+template <class T, class HalfEdge>
+QuadBatch<T> gather_corners(const BasicQuadRings<T>& rings, int count, const HalfEdge& half_edge,
+                            std::size_t size, int depth, int lanes, T* input) {
+  QuadBatch<T> batch{input, depth, {}};
+  const typename BasicQuadRings<T>::Corner* corner[kMaxLanes] = {};
+  for (int k = 0; k < count; ++k) {
+    for (int lane = 0; lane < lanes; ++lane)
+      corner[lane] = &rings.corner(half_edge(k, std::min(static_cast<std::size_t>(lane), size - 1)));
+    const bool open =
+        put_corner(rings, corner, depth, lanes, input + k * quad_block_size(depth) * lanes, batch.period[k]);
+    batch.open |= static_cast<unsigned>(open) << k;
+    if (open) put_darts(rings, corner, k, lanes, batch);
+    put_side(corner, k, lanes, batch);
+  }
+  return batch;
+}
+
 }  // namespace detail
 
 /// Fills quad_input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to
@@ -122,43 +129,20 @@ void put_side(const typename BasicQuadRings<T>::Corner* const* corner, int side,
 template <class T>
 QuadBatch<T> gather_quads(const BasicQuadRings<T>& rings, std::span<const std::int32_t> faces, int depth,
                           int lanes, T* input, Order order = Order::kFromA) {
-  QuadBatch<T> batch{input, depth, {}};
-  const typename BasicQuadRings<T>::Corner* corner[kMaxLanes] = {};
-  for (int k = 0; k < 4; ++k) {
-    const int first = (k + static_cast<int>(order)) % 4;
-    for (int lane = 0; lane < lanes; ++lane)
-      corner[lane] =
-          &rings.corner(4 * faces[std::min(static_cast<std::size_t>(lane), faces.size() - 1)] + first);
-    const bool open = detail::put_corner(rings, corner, depth, lanes,
-                                         input + k * quad_block_size(depth) * lanes, batch.period[k]);
-    batch.open |= static_cast<unsigned>(open) << k;
-    if (open) detail::put_darts(rings, corner, k, lanes, batch);
-    detail::put_side(corner, k, lanes, batch);
-  }
-  return batch;
+  const auto half_edge = [&](int k, std::size_t i) {
+    return 4 * faces[i] + (k + static_cast<int>(order)) % 4;
+  };
+  return detail::gather_corners(rings, 4, half_edge, faces.size(), depth, lanes, input);
 }
 
 /// The same for sides alone, each from the origin to the target of a half-edge: they lie where A B does.
 template <class T>
 QuadBatch<T> gather_sides(const BasicQuadRings<T>& rings, std::span<const std::int32_t> half_edges, int depth,
                           int lanes, T* input) {
-  QuadBatch<T> batch{input, depth, {}};
-  const typename BasicQuadRings<T>::Corner *p[kMaxLanes] = {}, *q[kMaxLanes] = {};
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
-    p[lane] = &rings.corner(h);
-    q[lane] = &rings.corner(QuadAdjacency::next(h));
-  }
-  for (int k = 0; k < 2; ++k) {
-    const auto* corner = k == 0 ? p : q;
-    if (!detail::put_corner(rings, corner, depth, lanes, input + k * quad_block_size(depth) * lanes,
-                            batch.period[k]))
-      continue;
-    batch.open |= 1u << k;
-    detail::put_darts(rings, corner, k, lanes, batch);
-  }
-  detail::put_side(p, kAB, lanes, batch);
-  return batch;
+  const auto half_edge = [&](int k, std::size_t i) {
+    return k == 0 ? half_edges[i] : QuadAdjacency::next(half_edges[i]);
+  };
+  return detail::gather_corners(rings, 2, half_edge, half_edges.size(), depth, lanes, input);
 }
 
 /// The same for regular quads and QuadPatch: kPatchSize * lanes numbers.
@@ -173,13 +157,11 @@ QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std:
   };
   constexpr Run runs[] = {
       {0, 0, 8, {1, 2, 6, 10, 9, 8, 4, 0}}, {2, 5, 5, {7, 11, 15, 14, 13}}, {1, 7, 1, {3}}, {3, 7, 1, {12}}};
-  std::int32_t face[kMaxLanes];
-  for (int lane = 0; lane < lanes; ++lane)
-    face[lane] = faces[std::min(static_cast<std::size_t>(lane), faces.size() - 1)];
   const auto half_edge = [&](int lane, int corner) {
-    return 4 * face[lane] + (corner + static_cast<int>(order)) % 4;
+    return 4 * faces[std::min(static_cast<std::size_t>(lane), faces.size() - 1)] +
+           (corner + static_cast<int>(order)) % 4;
   };
-  const T* from[kMaxLanes];
+  const T* from[kMaxLanes] = {};
   alignas(64) T entries[24 * kMaxLanes];
   const auto put = [&](const T* source, int point) {
     std::copy_n(source, 3 * lanes, input + 3 * point * lanes);
@@ -187,17 +169,17 @@ QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std:
   for (const Run& run : runs) {
     for (int lane = 0; lane < lanes; ++lane)
       from[lane] = rings.numbers() + rings.corner(half_edge(lane, run.corner)).before + 3 * run.first;
-    detail::put_numbers(from, 3 * run.count, lanes, entries);
+    to_lanes<T>(from, 3 * run.count, nullptr, lanes, entries);
     for (int k = 0; k < run.count; ++k) put(entries + 3 * k * lanes, run.at[k]);
   }
   for (int corner = 0; corner < 4; ++corner) {
     for (int lane = 0; lane < lanes; ++lane)
       from[lane] = rings.head(rings.corner(half_edge(lane, corner)).vertex) + QuadCornerBlock::kLimit;
-    detail::put_numbers(from, 6, lanes, input + (kPatchLimits + 6 * corner) * lanes);
+    to_lanes<T>(from, 6, nullptr, lanes, input + (kPatchLimits + 6 * corner) * lanes);
   }
   for (int lane = 0; lane < lanes; ++lane)
     from[lane] = rings.head(rings.corner(half_edge(lane, 0)).vertex) + QuadCornerBlock::kCentre;
-  detail::put_numbers(from, 3, lanes, entries);
+  to_lanes<T>(from, 3, nullptr, lanes, entries);
   put(entries, 5);
   return {input, depth, {}};
 }

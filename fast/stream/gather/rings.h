@@ -73,26 +73,21 @@ class BasicLoopRings {
   ///   throws   data::ArgumentError: not one point per vertex
   void move_points(const Adjacency& adjacency, PlacedPoints<T> points);
 
-  /// Ring of a vertex as indices into points(). Entry k of an interior ring is at (k mod n) of `first`; a
-  /// boundary ring has kReach further entries at either end and does not wrap.
-  struct Ring {
-    std::int32_t first;   // into entries()
-    std::int32_t period;  // n; kOpen for a boundary ring
-  };
-  static constexpr std::int32_t kOpen = std::numeric_limits<std::int32_t>::max();
-  static constexpr int kReach = kMaxDepth + 3;
+  /// What a grid needs of a vertex, in one piece, three numbers to a point: k0, k1, c, d, limit position, limit
+  /// normal (or N::tangent), which are the head of a CornerBlock; then the ring. That goes on at both ends, so
+  /// that windows do not wrap: a closed one by kReach entries, enough to depth 5, an open one by kOpenReach,
+  /// which are ghosts.
+  const T* numbers() const { return numbers_.data(); }
+  const T* head(std::int32_t v) const { return numbers() + 3 * static_cast<std::size_t>(heads_[v]); }
+  static constexpr int kReach = 8, kOpenReach = kMaxDepth + 3, kHeadPoints = 5;
+  static constexpr bool reaches(int depth) { return depth + 3 <= kReach; }
 
-  const std::vector<ControlPoint<T>>& points() const { return points_; }
-  const std::vector<std::int32_t>& entries() const { return entries_; }
-  Ring ring(std::int32_t v) const { return rings_[v]; }
-  /// Index in the ring of its origin of the vertex a half-edge points to.
-  std::int32_t slot(std::int32_t h) const { return slot_[h]; }
-
-  /// k0, k1, c, d, limit position, limit normal (or N::tangent): the head of a CornerBlock.
-  struct CornerHead {
-    std::array<T, CornerBlock::kWindow> head;
+  /// How a grid finds one of its corners, by the half-edge that leaves there, in points: its head, and the
+  /// entry of its ring to which the half-edge leads.
+  struct Corner {
+    std::int32_t head, entry;
   };
-  const CornerHead& corner(std::int32_t v) const { return corners_[v]; }
+  const Corner& corner(std::int32_t h) const { return corners_[h]; }
 
   const KernelPlacement<T>& placement() const { return placement_; }
   /// The number of vertices whose two limit tangents are parallel or vanish. [D12]
@@ -101,24 +96,23 @@ class BasicLoopRings {
  private:
   using Weight = typename NumberTraits<Wide>::Scalar;
   struct Scratch {
+    std::vector<ControlPoint<T>> placed;  // all control points
     std::vector<std::int32_t> vertices;
     std::vector<Vec3<Wide>> points, continued;
   };
 
   void lay_out(const Adjacency& adjacency);
   void make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind, Scratch& scratch);
-  void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, Ring ring,
-                     Scratch& scratch);
-  void put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0, const Weight& k1,
-                  const VertexLimit<Wide>& limit, const Vec3<Wide>& normal);
+  static void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, T* to,
+                            Scratch& scratch);
+  void put_head(std::int32_t v, const Weight& k0, const Weight& k1, const VertexLimit<Wide>& limit,
+                const Vec3<Wide>& normal);
+  T* head_of(std::int32_t v) { return numbers_.data() + 3 * static_cast<std::size_t>(heads_[v]); }
 
-  std::vector<ControlPoint<T>> points_;  // control vertices, then ghosts
   VertexKinds kinds_;
-  std::size_t ghosts_ = 0;
-  std::vector<std::int32_t> entries_;
-  std::vector<Ring> rings_;
-  std::vector<std::int32_t> slot_;
-  std::vector<CornerHead> corners_;
+  std::vector<T> numbers_;
+  std::vector<std::int32_t> heads_;  // per vertex, in points
+  std::vector<Corner> corners_;      // per half-edge
   KernelPlacement<T> placement_;
   RingWeightTable<Weight> weights_;
   DartWeightTable<Weight> darts_;

@@ -50,36 +50,33 @@ void BasicLoopRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> 
     throw data::ArgumentError("rings: " + std::to_string(points.points.size()) + " points for " +
                               std::to_string(adjacency.vertex_count()) + " vertices");
   }
-  points_ = std::move(points.points);
-  points_.reserve(points_.size() + ghosts_);
   placement_ = points.placement;
   degenerate_normals_ = 0;
-  const auto most = 2 * static_cast<std::size_t>(adjacency.max_valence());
-  Scratch scratch{std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(most), {}};
-  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
+  const auto most = static_cast<std::size_t>(adjacency.max_valence());
+  Scratch scratch{
+      std::move(points.points), std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(2 * most), {}};
+  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
+    std::copy_n(scratch.placed[v].data(), 3, head_of(v) + CornerBlock::kCentre);
     if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, kinds_[v], scratch);
+  }
 }
 
-// Where each vertex' entries and ghosts go, and the weights of the valences there are.
+// Where the numbers of each vertex go, and the weights of the valences there are.
 template <class N>
 void BasicLoopRings<N>::lay_out(const Adjacency& adjacency) {
-  const auto vertices = static_cast<std::size_t>(adjacency.vertex_count());
-  rings_.resize(vertices);
-  corners_.resize(vertices);
-  slot_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
-  std::int32_t entries = 0;
+  heads_.resize(static_cast<std::size_t>(adjacency.vertex_count()));
+  corners_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
+  std::int32_t points = 0;
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-    Ring& ring = rings_[v];
+    heads_[v] = points;
+    points += kHeadPoints;
     const int n = adjacency.valence(v);
-    ring = {0, 1};
     if (n == 0) continue;
     const bool open = adjacency.on_boundary(v);
-    ring = {entries + (open ? kReach : 0), open ? kOpen : n};
-    entries += n + (open ? 2 * kReach : 0);
-    ghosts_ += open ? std::size_t{2 * kReach} : 0;
+    points += n + 2 * (open ? kOpenReach : kReach);
     weights_.make(static_cast<std::size_t>(n), open);
   }
-  entries_.resize(static_cast<std::size_t>(entries));
+  numbers_.resize(3 * static_cast<std::size_t>(points) + 1);  // a fourth number is written, see make_vertex
 }
 
 template <class N>
@@ -87,11 +84,10 @@ void BasicLoopRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, 
                                     Scratch& scratch) {
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
   const std::span<const std::int32_t> fan = adjacency.fan(v);
-  const Ring ring = rings_[v];
-  const bool open = ring.period == kOpen, held = kind == VertexKind::kHeld;
+  const bool open = adjacency.on_boundary(v), held = kind == VertexKind::kHeld;
   const std::size_t faces = fan.size(), n = faces + (open ? 1 : 0);
   const auto position = [&](std::int32_t at) {
-    const auto& p = points_[at];
+    const auto& p = scratch.placed[at];
     return widen<T>(Vec3<T>{p[0], p[1], p[2]});
   };
   std::int32_t* vertex = scratch.vertices.data();
@@ -108,13 +104,20 @@ void BasicLoopRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, 
   if constexpr (std::is_floating_point_v<T>) {
     if (!open) start = canonical_start(points, n);
   }
-  for (std::size_t k = 0; k < start; ++k) vertex[n + k] = vertex[k], points[n + k] = points[k];
+  for (std::size_t k = 0; k < start; ++k) points[n + k] = points[k];
   const std::span<const Vec3<Wide>> around(points + start, n);
 
-  std::copy_n(vertex + start, n, entries_.data() + ring.first);
+  const std::int32_t first = heads_[v] + kHeadPoints + (open ? kOpenReach : kReach);
   for (std::size_t k = 0; k < faces; ++k)
-    slot_[fan[k]] = static_cast<std::int32_t>(k < start ? k + n - start : k - start);
-
+    corners_[fan[k]] = {heads_[v], first + static_cast<std::int32_t>(k < start ? k + n - start : k - start)};
+  // Four numbers for three, of which the next point overwrites the last.
+  T* const ring = numbers_.data() + 3 * static_cast<std::size_t>(first);
+  const int before = open ? 0 : kReach, size = static_cast<int>(n);
+  for (int k = -before, at = (static_cast<int>(start) - before % size + size) % size; k < size + before;
+       ++k) {
+    std::copy_n(scratch.placed[vertex[at]].data(), 4, ring + 3 * k);
+    at = at + 1 == size ? 0 : at + 1;
+  }
   const Vec3<Wide> centre = position(v);
   if (open) continue_ring(centre, held, around, ring, scratch);
   const auto& weights = weights_.of(n, open);
@@ -130,21 +133,19 @@ void BasicLoopRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, 
     if (degenerate) ++degenerate_normals_;
   }
   // What is held moves by nothing, and the sum of its differences halves or, at a closed ring, becomes 5/8.
-  if (held)
-    put_corner(v, centre, Weight(0), Weight(open ? 4 : 5), limit, normal);
-  else
-    put_corner(v, centre, weights.k0, weights.k1, limit, normal);
+  held ? put_head(v, Weight(0), Weight(open ? 4 : 5), limit, normal)
+       : put_head(v, weights.k0, weights.k1, limit, normal);
 }
 
-// The open ring continued by kReach entries at either end: index k of the ring is at [k + kReach].
+// The open ring continued by kOpenReach entries at either end: index k of the ring is at [k + kOpenReach].
 template <class N>
-void BasicLoopRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r,
-                                      Ring ring, Scratch& scratch) {
+void BasicLoopRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, T* ring,
+                                      Scratch& scratch) {
   const int last = static_cast<int>(r.size()) - 1;
   auto& all = scratch.continued;
-  all.resize(r.size() + 2 * kReach);
-  const auto at = [&](int k) -> Vec3<Wide>& { return all[k + kReach]; };
-  std::copy(r.begin(), r.end(), all.begin() + kReach);
+  all.resize(r.size() + 2 * kOpenReach);
+  const auto at = [&](int k) -> Vec3<Wide>& { return all[k + kOpenReach]; };
+  std::copy(r.begin(), r.end(), all.begin() + kOpenReach);
   const auto sum = [&](int k, const Vec3<Wide>& near, const Vec3<Wide>& far) {
     switch (k % 6) {
       case 0:
@@ -161,30 +162,27 @@ void BasicLoopRings<N>::continue_ring(const Vec3<Wide>& v, bool held, std::span<
   // Half a turn about a vertex that is held: the far end is the near one's image.
   const Vec3<Wide> front = r.front(), back = r.back();
   const Vec3<Wide> beyond_front = held ? (v + v) - front : back, beyond_back = held ? (v + v) - back : front;
-  for (int k = 1; k <= kReach; ++k) {
+  for (int k = 1; k <= kOpenReach; ++k) {
     at(-k) = sum(k, front, beyond_front) - at(k);
     at(last + k) = sum(k, back, beyond_back) - at(last - k);
   }
-  for (int k = -kReach; k <= last + kReach; ++k) {
+  for (int k = -kOpenReach; k <= last + kOpenReach; ++k) {
     if (k >= 0 && k <= last) continue;
-    entries_[ring.first + k] = static_cast<std::int32_t>(points_.size());
     const Vec3<T> ghost = narrow<T>(at(k));
-    points_.push_back({ghost.x, ghost.y, ghost.z, T(0)});
+    ring[3 * k] = ghost.x, ring[3 * k + 1] = ghost.y, ring[3 * k + 2] = ghost.z;
   }
 }
 
 template <class N>
-void BasicLoopRings<N>::put_corner(std::int32_t v, const Vec3<Wide>& centre, const Weight& k0,
-                                   const Weight& k1, const VertexLimit<Wide>& limit,
-                                   const Vec3<Wide>& normal) {
-  auto& head = corners_[v].head;
+void BasicLoopRings<N>::put_head(std::int32_t v, const Weight& k0, const Weight& k1,
+                                 const VertexLimit<Wide>& limit, const Vec3<Wide>& normal) {
+  T* const head = head_of(v);
   const auto put = [&](std::size_t at, const Vec3<Wide>& wide) {
     const Vec3<T> x = narrow<T>(wide);
     head[at] = x.x, head[at + 1] = x.y, head[at + 2] = x.z;
   };
   head[0] = static_cast<T>(k0);
   head[1] = static_cast<T>(k1);
-  put(CornerBlock::kCentre, centre);
   put(CornerBlock::kDifference, limit.difference);
   const Vec3<Wide> origin =
       widen<T>(Vec3<T>{placement_.centre[0], placement_.centre[1], placement_.centre[2]});

@@ -148,14 +148,14 @@ struct LoopStreamFrames final : StreamFrames<LoopStreamFrames, LoopScheme, LoopS
     std::vector<Vec3<float>> positions;
     positions.reserve(static_cast<std::size_t>(adjacency.vertex_count()));
     for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
-      const auto& p = stream.rings().points()[v];
+      const float* p = stream.rings().head(v) + CornerBlock::kCentre;
       positions.push_back({p[0], p[1], p[2]});
     }
     return positions;
   }
 
   SurfaceVertex<float> limit(std::int32_t v) const override {
-    return vertex_from(stream.rings().corner(v).head.data() + CornerBlock::kLimit);
+    return vertex_from(stream.rings().head(v) + CornerBlock::kLimit);
   }
   std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
   bool has_lines() const { return stream.kernel().run_lines != nullptr; }

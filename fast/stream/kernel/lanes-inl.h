@@ -127,8 +127,7 @@ struct LaneNumber {
     }
   }
 
- private:
-  // Four vectors transposed within their 128-bit blocks.
+  /// Four vectors transposed within their 128-bit blocks.
   HWY_ATTR static HWY_INLINE void transpose_blocks(hn::Vec<D> (&v)[4]) {
     const D d;
     const hn::RepartitionToWide<D> wide;
@@ -142,6 +141,7 @@ struct LaneNumber {
     v[3] = hn::BitCast(d, hn::InterleaveUpper(wide, ab1, ce1));
   }
 
+ private:
   // Block b of three vectors to the twelve numbers of lane 4 b + r.
   template <int b, class Place>
   HWY_ATTR static HWY_INLINE void store_blocks(const hn::Vec<D> (&v)[3], const Place& to, int r) {

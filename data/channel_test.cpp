@@ -39,15 +39,16 @@ TEST(Channels, OfObjAreItsTextureCoordinates) {
   EXPECT_TRUE(says(refusal_of<ArgumentError>([&] { channel_of(mesh, "colour"); }), "it has uv"));
 }
 
-TEST(Channels, OfObjHaveAsManyComponentsAsTheFirstLine) {
-  const auto components = [](const std::string& first) {
-    const ControlMesh mesh =
-        read("vt " + first + "\nvt 1 2 3 4\n" + kPositions + "f 1/1 2/2 5/1 4/2\nf 2/2 3/1 6/2 5/1\n").mesh;
-    return channel_of(mesh, "uv").values;
+TEST(Channels, OfObjHaveAsManyComponentsAsTheLongestLine) {
+  const auto components = [](const std::string& first, const std::string& second) {
+    const auto found =
+        read("vt" + first + "\nvt" + second + "\n" + kPositions + "f 1/1 2/2 5/1 4/2\nf 2/2 3/1 6/2 5/1\n");
+    return found.mesh.channels.empty() ? std::vector<double>{} : channel_of(found.mesh, "uv").values;
   };
-  EXPECT_EQ(components("5"), (std::vector<double>{5, 1}));
-  EXPECT_EQ(components("5 6"), (std::vector<double>{5, 6, 1, 2}));
-  EXPECT_EQ(components("5 6 7"), (std::vector<double>{5, 6, 7, 1, 2, 3}));
+  EXPECT_EQ(components(" 5", " 1"), (std::vector<double>{5, 1}));
+  EXPECT_EQ(components(" 5", " 1 2"), (std::vector<double>{5, 0, 1, 2}));
+  EXPECT_EQ(components(" 5 6 7", " 1"), (std::vector<double>{5, 6, 7, 1, 0, 0}));
+  for (const char* none : {"", " 1 2 3 4"}) EXPECT_EQ(components(" 5 6", none), std::vector<double>{});
 }
 
 TEST(Channels, OfObjHaveTheRuleOfTheTag) {
@@ -104,7 +105,9 @@ TEST(Channels, ThatAreUnusableAreLeftOutWithANote) {
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/5 3/6 6/9 5/8\n"),
             "the channel uv is left out: face 2 names value 9, there are 8");
   EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/99999999999 3/6 6/7 5/8\n"),
-            "the channel uv is left out: face 2 names value 2147483647, there are 8");
+            "the channel uv is left out: face 2 has an index of no value");
+  EXPECT_EQ(note(kTexture, "f 1/1 2/2 5/3 4/4\nf 2/0 3/6 6/7 5/8\n"),
+            "the channel uv is left out: face 2 has an index of no value");
   EXPECT_EQ(note(kTexture + "vt x 1\n", kFaces), "the channel uv is left out: value 9 is not finite");
   EXPECT_EQ(note("", "f 1 2 5 4\nf 2 3 6 5\n"), "0 notes");
 }
@@ -187,7 +190,8 @@ TEST(Channels, OfUsdaHaveTheRuleOfTheirInterpolation) {
 // What is no array of numbers at the corners or vertices of this mesh is no channel, and refuses no file.
 TEST(Channels, OfUsdaThatAreNoneAreReadOver) {
   for (const char* more :
-       {"float2[] primvars:st = None\n", "asset[] primvars:pictures = [@a.png@, @b.png@]\n",
+       {"float2[] primvars:st = None\n", "texCoord2f[] primvars:st (\n  interpolation = \"faceVarying\"\n)\n",
+        "asset[] primvars:pictures = [@a.png@, @b.png@]\n",
         "float[] primvars:wet.timeSamples = { 0: [1, 2, 3, 4, 5, 6] }\n",
         "quatf[] primvars:turn = [(1, 0, 0, 0)]\n", "string[] primvars:names = [\"a\"]\n"})
     EXPECT_TRUE(examined_usda(more).mesh.channels.empty()) << more;
@@ -202,13 +206,29 @@ TEST(Channels, OfUsdaThatAreNoneAreReadOver) {
                    "its faces have 3 corners, there are 4"));
 }
 
+// What a file says of a channel and cannot be is said again.
+TEST(Channels, OfUsdaThatCannotBeHaveANote) {
+  const auto note = [](const std::string& more) {
+    const auto found = examined_usda(more);
+    return found.notes.size() == 1 ? found.notes[0] : std::to_string(found.notes.size()) + " notes";
+  };
+  EXPECT_TRUE(says(note("float[] primvars:wet = [1, 2] (interpolation = \"faceVarying\")\n"),
+                   "it has 2 values, for 6 vertices and 8 corners"));
+  EXPECT_TRUE(says(note("float[] primvars:wet = [1, 2, 3, 4, 5, 6]\n"), "says no interpolation"));
+  EXPECT_TRUE(
+      says(note("uniform token faceVaryingLinearInterpolation = \"bilinear\"\n"), "none of its rules"));
+  EXPECT_EQ(note("color3f[] primvars:displayColor = [(1, 0, 0)] (interpolation = \"constant\")\n"),
+            "0 notes");
+}
+
 TEST(Channels, OfUsdaHaveOneNumberOfComponents) {
   const auto found = examined_usda(
-      "float2[] primvars:st = [(0,0), (.5,0), (.5,1), (0,1), (.5,0), (1,0)]\n"
+      "float2[] primvars:st = [(0,0), (.5,0), (.5,1), (0,1), (.5,0), (1,0)] "
+      "(interpolation = \"vertex\")\n"
       "def Mesh \"other\" {\n  point3f[] points = [(0,0,1), (1,0,1), (1,1,1)]\n  int[] faceVertexCounts = "
       "[3]\n"
       "  int[] faceVertexIndices = [0, 1, 2]\n  float4[] primvars:st = [(1,2,3,4), (1,2,3,4), "
-      "(1,2,3,4)]\n}\n");
+      "(1,2,3,4)] (interpolation = \"vertex\")\n}\n");
   EXPECT_TRUE(found.mesh.channels.empty());
   ASSERT_FALSE(found.notes.empty());
   EXPECT_TRUE(says(found.notes[0], "another mesh of the file has it with "));

@@ -185,7 +185,7 @@ struct QuadCornerBlock {
   static constexpr int kLimit = 14;   // limit position and unit normal, in the caller's coordinates
   static constexpr int kHead = 20;    // so much is the vertex' own
   static constexpr int kEnds = 20;    // which entries of the window are the ends of an open ring
-  static constexpr int kWindow = 22;  // entries e f e f .. e; overwritten
+  static constexpr int kWindow = 22;  // entries e f e f .. e
 };
 constexpr int quad_block_size(int depth) {
   return QuadCornerBlock::kWindow + 3 * quad_window_width(depth);
@@ -244,8 +244,8 @@ struct QuadCurve {
 constexpr int kFusedFrom = 5;
 
 /// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, or, before the
-/// rows begin, what a side needs by itself (two corners, and three rows of two levels in turn); what the
-/// levels take from the corners; the curves of the sides.
+/// rows begin, what a side needs by itself (what its levels take from two corners, its points with two tangents, and a
+/// coordinate of three rows of two levels in turn); what the levels take from the corners; the curves of the sides.
 constexpr int quad_row_size(int level) {
   return 3 * ((1 << level) + 3);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
 }
@@ -255,7 +255,7 @@ constexpr int quad_rows_offset(int level) {
   return offset;
 }
 constexpr int quad_side_work_size(int depth) {
-  return 2 * quad_block_size(depth) + 6 * quad_row_size(depth);
+  return 2 * kQuadBorder * depth + 9 * (1 << depth) + 6 * ((1 << depth) + 1);
 }
 constexpr int quad_border_offset(int depth) {
   return std::max(quad_rows_offset(depth + 1), quad_side_work_size(depth));

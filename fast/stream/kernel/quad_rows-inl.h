@@ -15,56 +15,48 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// The children of a line that has been refined across, in points 2 .. 2 size - 2: across(k) is number k of
-/// it.
-template <class N, class Across>
-HWY_ATTR HWY_INLINE void refine_along(const Across& across, int size, typename N::Scalar* child) {
-  using V = typename N::V;
-  constexpr int L = N::lanes, step = 3 * L;
-  V here[3], before[3];  // point i, and the sum of points i - 1 and i
-  for (int c = 0; c < 3; ++c) {
-    here[c] = across(step + c * L);
-    before[c] = across(c * L) + here[c];
-  }
-  child += 2 * step;
-  for (int k = 2 * step;; k += step, child += 2 * step) {
-    const bool end = k == size * step;
-    for (int c = 0; c < 3; ++c) {
-      const V next = across(k + c * L), after = here[c] + next;
-      N::store(N::fma(N::splat(.25), before[c] + after, here[c]), child + c * L);
-      if (!end) N::store(after, child + step + c * L);
-      here[c] = next, before[c] = after;
-    }
-    if (end) return;
+/// A line of points, one coordinate of each: in memory, or in what will be registers.
+template <class N>
+struct MemoryLine {
+  typename N::Scalar* to;
+  int step;
+  HWY_ATTR HWY_INLINE typename N::V get(int i) const { return N::load(to + i * step); }
+  HWY_ATTR HWY_INLINE void set(int i, typename N::V v) const { N::store(v, to + i * step); }
+};
+template <class N>
+struct LocalLine {
+  typename N::V* to;
+  HWY_ATTR HWY_INLINE typename N::V get(int i) const { return to[i]; }
+  HWY_ATTR HWY_INLINE void set(int i, typename N::V v) const { to[i] = v; }
+};
+
+/// The children of a line that has been refined across, in points 2 .. 2 size - 2: across(i) is point i of it.
+template <class N, class Across, class Line>
+HWY_ATTR HWY_INLINE void refine_along(const Across& across, int size, const Line& child) {
+  typename N::V here = across(1), before = across(0) + here;  // point i, and the sum of points i - 1 and i
+  for (int k = 2; k <= size; ++k) {
+    const auto next = across(k), after = here + next;
+    child.set(2 * k - 2, N::fma(N::splat(.25), before + after, here));
+    if (k < size) child.set(2 * k - 1, after);
+    here = next, before = after;
   }
 }
 
-/// Row 2j of the next level from rows s, m, n = j-1, j, j+1 of a level of size = 2^level >= 2, points 2 .. 2
-/// size - 2. sharp: null, or 1 in the lanes where row j is a sharp side.
-template <class N>
-HWY_ATTR void refine_even_quads(const typename N::Scalar* s, const typename N::Scalar* m,
-                                const typename N::Scalar* n, int size, const typename N::Scalar* sharp,
-                                typename N::Scalar* even) {
-  using V = typename N::V;
-  if (sharp) {
-    const V mask = N::load(sharp);
-    const auto across = [&](int k) HWY_ATTR {
-      const V v = N::load(m + k);
-      return N::select(mask, v + v, even_rule<N>(N::load(s + k), v, N::load(n + k)));
-    };
-    refine_along<N>(across, size, even);
-  } else {
-    const auto across = [&](int k)
-                            HWY_ATTR { return even_rule<N>(N::load(s + k), N::load(m + k), N::load(n + k)); };
-    refine_along<N>(across, size, even);
-  }
+/// Line 2j of the next level from lines s, m, n = j-1, j, j+1 of a level of size = 2^level >= 2, points 2 .. 2
+/// size - 2. sharp: null, or 1 in the lanes where line j is a sharp side.
+template <class N, class Line>
+HWY_ATTR HWY_INLINE void refine_even_line(const Line& s, const Line& m, const Line& n, int size,
+                                          const typename N::Scalar* sharp, const Line& even) {
+  const auto across = [&](int i) HWY_ATTR {
+    const auto v = m.get(i), refined = even_rule<N>(s.get(i), v, n.get(i));
+    return sharp ? N::select(N::load(sharp), v + v, refined) : refined;
+  };
+  refine_along<N>(across, size, even);
 }
-
-/// Row 2j+1, between rows m = j and n = j+1.
-template <class N>
-HWY_ATTR void refine_odd_quads(const typename N::Scalar* m, const typename N::Scalar* n, int size,
-                               typename N::Scalar* odd) {
-  refine_along<N>([&](int k) HWY_ATTR { return N::load(m + k) + N::load(n + k); }, size, odd);
+/// Line 2j+1, between lines m = j and n = j+1.
+template <class N, class Line>
+HWY_ATTR HWY_INLINE void refine_odd_line(const Line& m, const Line& n, int size, const Line& odd) {
+  refine_along<N>([&](int i) HWY_ATTR { return m.get(i) + n.get(i); }, size, odd);
 }
 
 /// A column's side, whose points -1, 0 and 1 of a row begin at `at`: refined across it. The three children.
@@ -258,6 +250,17 @@ struct QuadLaneTarget {
   }
 };
 
+/// A row to memory of the kernel's own, six vectors to a point.
+template <class N>
+struct KeptRow {
+  typename N::Scalar* out;
+  HWY_ATTR HWY_INLINE void vertex(int i, const Vertex<N>& a) const { a.store(out + 6 * i * N::lanes); }
+  HWY_ATTR HWY_INLINE void couple(int i, const Vertex<N>& a, const Vertex<N>& b) const {
+    vertex(i, a), vertex(i + 1, b);
+  }
+  HWY_ATTR HWY_INLINE void expect(int /*i*/) const {}
+};
+
 /// Any points of a row of even size, of which the ends are given: point(i, v) makes point i.
 template <class N, class Point, class Row>
 HWY_ATTR HWY_INLINE void scatter_points(const Point& point, int size, const Vertex<N>& first,
@@ -269,22 +272,6 @@ HWY_ATTR HWY_INLINE void scatter_points(const Point& point, int size, const Vert
     to.couple(i, a, b);
   }
   to.vertex(size, last);
-}
-
-/// The inside of a row to memory of one's own: points 1 .. size - 1, six vectors each, that of point i to out[6 i].
-template <class N, class Points>
-HWY_ATTR HWY_INLINE void store_row(Points& points, int size, typename N::Scalar* out) {
-  constexpr int step = 6 * N::lanes;
-  Vertex<N> a, b;
-  begin_vertex<N, true>(points, a);
-  for (int i = 2; i < size; ++i) {
-    out += step;
-    begin_vertex<N, false>(points, b, a);
-    a.store(out);
-    a = b;
-  }
-  a.end();
-  a.store(out + step);
 }
 
 }  // namespace limitcheck::fast::row_stream::HWY_NAMESPACE

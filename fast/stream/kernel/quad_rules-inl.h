@@ -45,81 +45,7 @@ HWY_ATTR HWY_INLINE V ring_edge_rule(V c, V e, V f, V g) {
   return N::fma(N::splat(.25), f + g, c + e);
 }
 
-/// One level of a corner: its centre, the sums of differences to its ring, and the ring's entries e f e f ...
-/// from `first` to before `end`: a closed ring, or a window of it, which loses two entries at either end.
-/// open: in lane k the entries ends[0] and ends[1] are the ends of the ring, on sharp edges.
-template <class N, bool closed, bool open>
-HWY_ATTR void refine_quad_ring(typename N::Scalar* block, int first, int end) {
-  using V = typename N::V;
-  using Block = QuadCornerBlock;
-  constexpr int L = N::lanes;
-  const auto number = [&](int k) HWY_ATTR { return N::load(block + k * L); };
-  const V k0 = number(0), k1 = number(1), k2 = number(2), k3 = number(3), k4 = number(4);
-  const V start = number(Block::kEnds), stop = number(Block::kEnds + 1);
-  for (int c = 0; c < 3; ++c) {
-    typename N::Scalar* entry = block + (Block::kWindow + c) * L;
-    const auto at = [&](int t) { return entry + 3 * t * L; };
-    const V v = number(Block::kCentre + c), de = number(Block::kEdges + c), df = number(Block::kFaces + c);
-
-    V here = N::load(at(first));
-    for (int t = first + 1; t + 1 < end; t += 2) {
-      const V after = N::load(at(t + 1));
-      N::store(face_rule(v, here, N::load(at(t)), after), at(t));
-      here = after;
-    }
-    V before = N::load(at(first + 1));
-    if constexpr (closed) {
-      before = face_rule(v, here, N::load(at(end - 1)), N::load(at(first)));
-      N::store(before, at(end - 1));
-    }
-    for (int t = closed ? first : first + 2; t + 1 < end; t += 2) {
-      const V e = N::load(at(t)), f = N::load(at(t + 1));
-      V refined = ring_edge_rule<N>(v, e, before, f);
-      if constexpr (open) {
-        const V position = N::splat(t), sharp = N::equal(position, start) + N::equal(position, stop);
-        refined = N::select(sharp, N::splat(2) * (v + e), refined);
-      }
-      N::store(refined, at(t));
-      before = f;
-    }
-
-    N::store(N::fma(k1, df, N::fma(k0, de, N::splat(4) * v)), block + (Block::kCentre + c) * L);
-    const V both = k2 * de;
-    N::store(N::fma(k3, df, both), block + (Block::kEdges + c) * L);
-    N::store(N::fma(k4, df, both), block + (Block::kFaces + c) * L);
-  }
-}
-
-/// A point of a side from its 3 x 3 neighbours in the side's own frame: x along it, the right of it in row 0,
-/// the left in row 2. sharp: null, or 1 where the surface has nothing beyond; inner: the row of the inside, 0
-/// or 2. Normal of any length.
-template <class N>
-HWY_ATTR HWY_INLINE void side_limit(const typename N::Scalar* const (&at)[3][3],
-                                    const typename N::Scalar* sharp, int inner, const typename N::V* centre,
-                                    typename N::V unit, Vertex<N>& out) {
-  using V = typename N::V;
-  V along[3], across[3];
-  for (int c = 0; c < 3; ++c) {
-    V p[3], q[3];
-    for (int k = 0; k < 3; ++k) {
-      const int shift = c * N::lanes;
-      const V r = N::load(at[0][k] + shift), m = N::load(at[1][k] + shift), l = N::load(at[2][k] + shift);
-      p[k] = limit_filter<N>(r, m, l);
-      q[k] = l - r;
-      if (sharp) {
-        const V mask = N::load(sharp);
-        p[k] = N::select(mask, N::splat(6) * m, p[k]);
-        q[k] = N::select(mask, N::splat(2) * (inner == 2 ? l - m : m - r), q[k]);
-      }
-    }
-    out.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), unit, centre[c]);
-    along[c] = p[2] - p[0];
-    across[c] = limit_filter<N>(q[0], q[1], q[2]);
-  }
-  out.set_normal(along, across);
-}
-
-/// Corner k of the quads of a batch, or a copy of it.
+/// Corner k of the quads of a batch.
 template <class N>
 class QuadCorner {
  public:
@@ -144,53 +70,71 @@ class QuadCorner {
     const int t = period_ == 0 ? 2 * depth_ + core : core >= period_ ? core - period_ : core;
     return block_ + (Block::kWindow + 3 * t) * L;
   }
-  const Scalar* point(RingPoint p) const { return p == kHub ? centre() : ring(p - 1); }
 
-  /// Seen from an origin, in `to`, where it is from now on; that may be where it was. At level 0 only.
-  HWY_ATTR void move(const V* origin, Scalar* to) {
-    const int entries = period_ > 0 ? period_ : quad_window_width(depth_);
-    if (to != block_) {
-      for (int k = 0; k < Block::kWindow; ++k) N::store(N::load(block_ + k * L), to + k * L);
-    }
-    for (int c = 0; c < 3; ++c) {
-      N::store(N::load(centre() + c * L) - origin[c], to + (Block::kCentre + c) * L);
-      for (int t = Block::kWindow + c; t < Block::kWindow + 3 * entries; t += 3)
-        N::store(N::load(block_ + t * L) - origin[c], to + t * L);
-    }
-    block_ = to;
-  }
-
-  /// From a level to the next.
-  HWY_ATTR void refine(int level) {
-    // A ring that is there as a whole stays whole.
-    const int first = period_ > 0 ? 0 : 2 * level;
-    const int end = period_ > 0 ? period_ : quad_window_width(depth_) - 2 * level;
-    if (dart_ != nullptr) {
-      V before[3];
-      for (int c = 0; c < 3; ++c) before[c] = N::load(centre() + c * L);
-      refine_ring(first, end);
-      const V is_dart = N::load(dart_);
-      for (int c = 0; c < 3; ++c) {
-        const V moved = N::fma(N::splat(4), before[c], N::load(dart_ + (1 + 3 * level + c) * L));
-        N::store(N::select(is_dart, moved, N::load(centre() + c * L)), block_ + (Block::kCentre + c) * L);
-      }
-    } else {
-      refine_ring(first, end);
-    }
+  /// What the lines of each level from 1 on take from it, seen from an origin if it is not null: c and the entries
+  /// of its core, three numbers to a point; those of the next level `stride` numbers on. Short rings that are there as a
+  /// whole stay in registers.
+  HWY_ATTR void refine(const V* origin, Scalar* out, int stride) const {
+    if (open_) return levels<0, true>(origin, out, stride);
+    if (period_ == 6) return levels<6, false>(origin, out, stride);
+    if (period_ == 8) return levels<8, false>(origin, out, stride);
+    if (period_ == 10) return levels<10, false>(origin, out, stride);
+    if (period_ == 12) return levels<12, false>(origin, out, stride);
+    levels<0, false>(origin, out, stride);
   }
 
  private:
-  HWY_ATTR HWY_INLINE void refine_ring(int first, int end) {
-    if (open_) {
-      refine_quad_ring<N, false, true>(block_, first, end);
-    } else if (period_ > 0) {
-      refine_quad_ring<N, true, false>(block_, first, end);
-    } else {
-      refine_quad_ring<N, false, false>(block_, first, end);
+  // The centre, the sums of differences to its ring, and the ring's entries e f e f ..: all of a closed ring, as many
+  // as `entries` if that is not 0, or a window, which loses two entries at either end with each level.
+  template <int entries, bool open>
+  HWY_ATTR void levels(const V* origin, Scalar* out, int stride) const {
+    constexpr int most = entries > 0 ? entries : quad_window_width(kMaxDepth);
+    const bool whole = entries > 0 || period_ > 0;
+    const int size = entries > 0 ? entries : period_ > 0 ? period_ : quad_window_width(depth_);
+    const auto number = [&](int k) HWY_ATTR { return N::load(block_ + k * L); };
+    const V k0 = number(0), k1 = number(1), k2 = number(2), k3 = number(3), k4 = number(4);
+    for (int c = 0; c < 3; ++c, out += L) {
+      const auto seen = [&](const V& x) HWY_ATTR { return origin != nullptr ? x - origin[c] : x; };
+      V ring[most];
+      for (int t = 0; t < size; ++t) ring[t] = seen(number(Block::kWindow + 3 * t + c));
+      V v = seen(number(Block::kCentre + c)), de = number(Block::kEdges + c), df = number(Block::kFaces + c);
+      Scalar* to = out;
+      for (int level = 0; level < depth_; ++level, to += stride) {
+        const int first = whole ? 0 : 2 * level, end = size - first;
+        for (int t = first + 1; t + 1 < end; t += 2)
+          ring[t] = face_rule(v, ring[t - 1], ring[t], ring[t + 1]);
+        if (whole) ring[size - 1] = face_rule(v, ring[size - 2], ring[size - 1], ring[0]);
+        for (int t = whole ? 0 : first + 2; t + 1 < end; t += 2) {
+          const V refined = ring_edge_rule<N>(v, ring[t], ring[t > 0 ? t - 1 : size - 1], ring[t + 1]);
+          ring[t] = open ? sharp_or(refined, v, ring[t], t) : refined;
+        }
+
+        V moved = N::fma(k1, df, N::fma(k0, de, N::splat(4) * v));
+        if (open && dart_ != nullptr) {
+          const V dart = N::fma(N::splat(4), v, N::load(dart_ + (1 + 3 * level + c) * L));
+          moved = N::select(N::load(dart_), dart, moved);
+        }
+        v = moved;
+        const V both = k2 * de;
+        de = N::fma(k3, df, both), df = N::fma(k4, df, both);
+
+        N::store(v, to);
+        for (int core = 0; core < kQuadCore; ++core) {
+          const int t = !whole ? 2 * depth_ + core : core < size ? core : core - size;
+          N::store(ring[t], to + 3 * (1 + core) * L);
+        }
+      }
     }
   }
 
-  Scalar* block_;
+  // In lane k the entries kEnds and kEnds + 1 of an open ring are its ends, on sharp edges.
+  HWY_ATTR HWY_INLINE V sharp_or(V refined, V v, V e, int t) const {
+    const V position = N::splat(t), start = N::load(block_ + Block::kEnds * L),
+            stop = N::load(block_ + (Block::kEnds + 1) * L);
+    return N::select(N::equal(position, start) + N::equal(position, stop), N::splat(2) * (v + e), refined);
+  }
+
+  const Scalar* block_;
   const Scalar* dart_;
   int depth_, period_;
   bool open_;

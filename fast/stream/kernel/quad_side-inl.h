@@ -40,29 +40,58 @@ class QuadSideLimit {
 
   /// 1 in the lanes in which the side is sharp; null: in none.
   const Scalar* sharp() const { return sharp_; }
+  bool some_polynomial() const { return polynomial_ != nullptr; }
   bool all_polynomial() const { return all_polynomial_; }
   /// Whether its points are as those of any other row.
   bool plain() const { return sharp_ == nullptr && polynomial_ == nullptr; }
   Scalar unit() const { return unit_; }
 
-  /// Point k counted from the side's beginning; at: its 3 x 3 neighbours, and inner the row of the inside, as
-  /// for side_limit. Normal of length 1.
+  /// Sum and difference across the side of the numbers right of it, on it and left of it, of which those of the inside
+  /// are left if `inner` is 2.
+  HWY_ATTR HWY_INLINE void filter(V r, V m, V l, int inner, V& sum, V& difference) const {
+    sum = limit_filter<N>(r, m, l);
+    difference = l - r;
+    if (sharp_ == nullptr) return;
+    const V mask = N::load(sharp_);  // there is nothing beyond
+    sum = N::select(mask, N::splat(6) * m, sum);
+    difference = N::select(mask, N::splat(2) * (inner == 2 ? l - m : m - r), difference);
+  }
+
+  /// Point k counted from the side's beginning; at: its 3 x 3 neighbours in the side's own frame: x along it, the right
+  /// of it in row 0, the left in row 2; inner: the row of the inside, 0 or 2. Normal of length 1.
   HWY_ATTR HWY_INLINE void point(int k, const Scalar* const (&at)[3][3], int inner, Vertex<N>& out) const {
     if (all_polynomial_) {
-      curve_point<N>(curve_, k, depth_, N::splat(curve_unit_), out);
+      curve(k, out);
     } else {
-      side_limit<N>(at, sharp_, inner, centre_, N::splat(unit_), out);
-      if (polynomial_ != nullptr) {
-        const V polynomial = N::load(polynomial_);
-        Vertex<N> other;
-        curve_point<N>(curve_, k, depth_, N::splat(curve_unit_), other);
-        for (int c = 0; c < 3; ++c) {
-          out.position[c] = N::select(polynomial, other.position[c], out.position[c]);
-          out.normal[c] = N::select(polynomial, other.normal[c], out.normal[c]);
+      V along[3], across[3];
+      for (int c = 0; c < 3; ++c) {
+        V p[3], q[3];
+        for (int i = 0; i < 3; ++i) {
+          const auto number = [&](int row) HWY_ATTR { return N::load(at[row][i] + c * L); };
+          filter(number(0), number(1), number(2), inner, p[i], q[i]);
         }
+        out.position[c] = N::fma(limit_filter<N>(p[0], p[1], p[2]), N::splat(unit_), centre_[c]);
+        along[c] = p[2] - p[0];
+        across[c] = limit_filter<N>(q[0], q[1], q[2]);
       }
+      out.set_normal(along, across);
+      choose(k, out);
     }
     out.finish();
+  }
+  /// The same where it is a polynomial, and of a point that has been made otherwise; normal of any length.
+  HWY_ATTR HWY_INLINE void curve(int k, Vertex<N>& out) const {
+    curve_point<N>(curve_, k, depth_, N::splat(curve_unit_), out);
+  }
+  HWY_ATTR HWY_INLINE void choose(int k, Vertex<N>& out) const {
+    if (polynomial_ == nullptr) return;
+    const V polynomial = N::load(polynomial_);
+    Vertex<N> other;
+    curve(k, other);
+    for (int c = 0; c < 3; ++c) {
+      out.position[c] = N::select(polynomial, other.position[c], out.position[c]);
+      out.normal[c] = N::select(polynomial, other.normal[c], out.normal[c]);
+    }
   }
 
  private:
@@ -89,109 +118,147 @@ class QuadSideStream {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  /// work: quad_side_work_size(depth) * lanes. The batch's corners are left alone if the side has an origin
-  /// of its own, and only then.
+  /// work: quad_side_work_size(depth) * lanes.
   HWY_ATTR QuadSideStream(const QuadBatch<Scalar>& batch, int side, const KernelPlacement<Scalar>& placement,
                           const Scalar* curve, Scalar* work)
       : p_(batch, side),
         q_(batch, (side + 1) % 4),
         depth_(batch.depth),
-        rows_(work + 2 * quad_block_size(batch.depth) * L),
+        ends_(work),
+        points_(work + 2 * kQuadBorder * batch.depth * L),
         limit_(batch, side, placement, curve, centre_) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
-    if (placement.has_local_origin(depth_)) {
-      choose_middle<N>(p_.centre(), q_.centre(), origin);
-      if (!limit_.all_polynomial())
-        p_.move(origin, work), q_.move(origin, work + quad_block_size(depth_) * L);
-    }
+    const bool local = placement.has_local_origin(depth_);
+    if (local) choose_middle<N>(p_.centre(), q_.centre(), origin);
     for (int c = 0; c < 3; ++c)
       centre_[c] = N::fma(origin[c], N::splat(placement.unit), N::splat(placement.centre[c]));
-    if (!limit_.all_polynomial()) refine();
+    if (!limit_.all_polynomial() && depth_ > 0) refine(local ? origin : nullptr);
   }
   QuadSideStream(const QuadSideStream&) = delete;
-  QuadSideStream& operator=(const QuadSideStream&) = delete;
 
-  /// Points 0 .. 2^depth, six vectors each, to out,
-  HWY_ATTR void store(Scalar* out) const {
-    const int size = 1 << depth_;
-    Vertex<N> v;
-    v.load(p_.limit()), v.store(out);
-    v.load(q_.limit()), v.store(out + 6 * size * L);
-    if (limit_.plain()) {
-      QuadLimitRow<N> points(row(depth_, -1), row(depth_, 0), row(depth_, 1), 1, centre_, limit_.unit());
-      store_row<N>(points, size, out);
-    } else {
-      for (int k = 1; k < size; ++k) point(k, v), v.store(out + 6 * k * L);
-    }
-  }
-  /// or as a row.
+  /// Points 0 .. 2^depth as a row.
   template <class Row>
   HWY_ATTR void scatter(const Row& to) const {
     const int size = 1 << depth_;
     Vertex<N> a, b;
     a.load(p_.limit()), b.load(q_.limit());
     if (size == 1) return to.couple(0, a, b);
-    if (limit_.plain()) {
-      QuadLimitRow<N> points(row(depth_, -1), row(depth_, 0), row(depth_, 1), 1, centre_, limit_.unit());
+    if (!limit_.some_polynomial()) {
+      Kept points{points_};
       return scatter_row<N>(points, size, a, b, to);
     }
-    const Vertex<N> last = b;
-    for (int k = 0; k < size; k += 2) {
-      if (k > 0) point(k, a);
-      point(k + 1, b);
-      to.couple(k, a, b);
-    }
-    to.vertex(size, last);
+    scatter_points<N>([&](int k, Vertex<N>& v) HWY_ATTR { point(k, v); }, size, a, b, to);
   }
 
  private:
-  Scalar* row(int level, int j) const {
-    return rows_ + ((level % 2 * 3 + j + 1) * quad_row_size(depth_) + 3) * L;
+  // Position and two tangents of points 1 .. size - 1, in turn; see begin_vertex().
+  struct Kept {
+    const Scalar* at;
+    template <bool odd>
+    HWY_ATTR HWY_INLINE void advance() {
+      at += 9 * L;
+    }
+    template <bool odd>
+    HWY_ATTR HWY_INLINE void coordinate(int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) const {
+      v.position[c] = N::load(at + c * L);
+      along[c] = N::load(at + (3 + c) * L);
+      across[c] = N::load(at + (6 + c) * L);
+    }
+  };
+  HWY_ATTR HWY_INLINE void point(int k, Vertex<N>& out) const {
+    if (limit_.all_polynomial()) {
+      limit_.curve(k, out);
+    } else {
+      Kept points{points_ + 9 * (k - 1) * L};
+      begin_vertex<N, true>(points, out);
+      limit_.choose(k, out);
+    }
+    out.finish();
   }
 
-  HWY_ATTR void refine() {
-    for (int level = 1; level <= depth_; ++level) {
-      if (level > 1) {
-        const Scalar *s = row(level - 1, -1), *m = row(level - 1, 0), *n = row(level - 1, 1);
-        const int size = 1 << (level - 1);
-        refine_odd_quads<N>(s, m, size, row(level, -1));
-        refine_even_quads<N>(s, m, n, size, limit_.sharp(), row(level, 0));
-        refine_odd_quads<N>(m, n, size, row(level, 1));
+  HWY_ATTR void refine(const V* origin) {
+    p_.refine(origin, ends_, 2 * kQuadBorder * L);
+    q_.refine(origin, ends_ + kQuadBorder * L, 2 * kQuadBorder * L);
+    if (depth_ == 1) return short_lines<1>();
+    if (depth_ == 2) return short_lines<2>();
+    if (depth_ == 3) return short_lines<3>();
+    if (depth_ == 4) return short_lines<4>();
+    long_lines(points_ + 9 * (1 << depth_) * L);
+  }
+
+  // The rows right of the side, on it and left of it.
+  template <int depth>
+  HWY_ATTR void short_lines() {
+    for (int c = 0; c < 3; ++c) {
+      V none[3][2];
+      descend<1, depth>(c, none);
+    }
+  }
+  template <int level, int depth>
+  HWY_ATTR HWY_INLINE void descend(int c, V (&before)[3][(1 << (level - 1)) + 1]) {
+    V now[3][(1 << level) + 1];
+    const LocalLine<N> from[3] = {{before[0]}, {before[1]}, {before[2]}},
+                       to[3] = {{now[0]}, {now[1]}, {now[2]}};
+    refine_lines(c, level, from, to);
+    if constexpr (level < depth)
+      descend<level + 1, depth>(c, now);
+    else
+      make_points(c, 1 << level, to);
+  }
+  HWY_ATTR void long_lines(Scalar* work) {
+    const int pitch = ((1 << depth_) + 1) * L;
+    for (int c = 0; c < 3; ++c) {
+      MemoryLine<N> from[3], to[3];
+      for (int level = 1; level <= depth_; ++level) {
+        for (int r = 0; r < 3; ++r) from[r] = to[r], to[r] = {work + (level % 2 * 3 + r) * pitch, L};
+        refine_lines(c, level, from, to);
       }
-      p_.refine(level - 1), q_.refine(level - 1);
-      take_ends(level);
+      make_points(c, 1 << depth_, to);
     }
   }
 
-  // What the rings of the ends own: all within two points of them.
-  HWY_ATTR void take_ends(int level) {
-    const int size = 1 << level;
-    Scalar *s = row(level, -1), *m = row(level, 0), *n = row(level, 1);
-    const auto copy = [&](const Scalar* from, Scalar* to_row, int i) HWY_ATTR {
-      for (int c = 0; c < 3; ++c) N::store(N::load(from + c * L), to_row + (3 * i + c) * L);
-    };
-    const auto p = [&](RingPoint at, Scalar* to_row, int i) HWY_ATTR { copy(p_.point(at), to_row, i); };
-    const auto q = [&](RingPoint at, Scalar* to_row, int i) HWY_ATTR { copy(q_.point(at), to_row, i); };
-    p(kEBefore, s, 0), p(kFBefore, s, 1);
-    p(kEBeyond, m, -1), p(kHub, m, 0), p(kE, m, 1);
-    p(kFAfter, n, -1), p(kEAfter, n, 0), p(kF, n, 1);
-    q(kFAfter, s, size - 1), q(kEBeyond, s, size);
-    q(kEAfter, m, size - 1), q(kHub, m, size), q(kEBefore, m, size + 1);
-    q(kF, n, size - 1), q(kE, n, size), q(kFBefore, n, size + 1);
+  template <class Line>
+  HWY_ATTR HWY_INLINE void refine_lines(int c, int level, const Line (&from)[3], const Line (&to)[3]) const {
+    const int last = 1 << level;
+    if (level > 1) {
+      refine_odd_line<N>(from[0], from[1], last / 2, to[0]);
+      refine_even_line<N>(from[0], from[1], from[2], last / 2, limit_.sharp(), to[1]);
+      refine_odd_line<N>(from[1], from[2], last / 2, to[2]);
+    }
+    // What the rings of the ends own: all within two points of them.
+    const auto p = [&](RingPoint at)
+                       HWY_ATTR { return N::load(ends_ + (kQuadBorder * 2 * (level - 1) + 3 * at + c) * L); };
+    const auto q = [&](RingPoint at)
+                       HWY_ATTR { return N::load(ends_ + (kQuadBorder * (2 * level - 1) + 3 * at + c) * L); };
+    to[0].set(0, p(kEBefore)), to[0].set(1, p(kFBefore));
+    to[1].set(0, p(kHub)), to[1].set(1, p(kE));
+    to[2].set(0, p(kEAfter)), to[2].set(1, p(kF));
+    to[0].set(last - 1, q(kFAfter)), to[0].set(last, q(kEBeyond));
+    to[1].set(last - 1, q(kEAfter)), to[1].set(last, q(kHub));
+    to[2].set(last - 1, q(kF)), to[2].set(last, q(kE));
   }
-
-  HWY_ATTR HWY_INLINE void point(int k, Vertex<N>& out) const {
-    const Scalar *s = row(depth_, -1), *m = row(depth_, 0), *n = row(depth_, 1);
-    const int i = 3 * k * L, step = 3 * L;
-    const Scalar* const at[3][3] = {{s + i - step, s + i, s + i + step},
-                                    {m + i - step, m + i, m + i + step},
-                                    {n + i - step, n + i, n + i + step}};
-    limit_.point(k, at, 2, out);
+  template <class Line>
+  HWY_ATTR HWY_INLINE void make_points(int c, int size, const Line (&line)[3]) const {
+    const V unit = N::splat(limit_.unit());
+    V p[3], q[3];
+    const auto filter = [&](int i, V& sum, V& difference) HWY_ATTR {
+      limit_.filter(line[0].get(i), line[1].get(i), line[2].get(i), 2, sum, difference);
+    };
+    filter(0, p[0], q[0]), filter(1, p[1], q[1]);
+    Scalar* to = points_ + (9 + c) * L;
+    for (int k = 1; k < size; ++k, to += 9 * L) {
+      filter(k + 1, p[2], q[2]);
+      N::store(N::fma(limit_filter<N>(p[0], p[1], p[2]), unit, centre_[c]), to);
+      N::store(p[2] - p[0], to + 3 * L);
+      N::store(limit_filter<N>(q[0], q[1], q[2]), to + 6 * L);
+      p[0] = p[1], p[1] = p[2], q[0] = q[1], q[1] = q[2];
+    }
   }
 
   QuadCorner<N> p_, q_;
   int depth_;
-  Scalar* rows_;  // two levels in turn
+  Scalar *ends_,
+      *points_;  // of the corners, level by level; of the side, from number 0 on, which is not there
   V centre_[3];
   QuadSideLimit<N> limit_;
 };

@@ -31,8 +31,8 @@ class QuadStream {
   using V = typename N::V;
   static constexpr int L = N::lanes;
 
-  /// work: quad_work_size(depth) * lanes. It and the input are aligned to 64 bytes and hold finite numbers;
-  /// the input's rings are overwritten.
+  /// work: quad_work_size(depth) * lanes. It and the input, which is left alone, are aligned to 64 bytes
+  /// and hold finite numbers.
   HWY_ATTR QuadStream(const QuadBatch<Scalar>& batch, const KernelPlacement<Scalar>& placement, Scalar* work,
                       const To& target)
       : batch_(batch),
@@ -61,7 +61,8 @@ class QuadStream {
       if (batch_.some_polynomial >> side & 1) curve(side);
     }
     if (local_) move_origin();
-    for (int k = 0; k < 4; ++k) refine_corner(k);
+    for (int k = 0; k < 4; ++k)
+      corner(k).refine(local_ ? origin_ : nullptr, border(1, k), 4 * kQuadBorder * L);
     for (int j = -1; j <= 3; ++j) receive(1, j);
   }
 
@@ -93,15 +94,10 @@ class QuadStream {
     run_first_side();
     for (const int side : {kBC, kCD, kDA}) {
       const QuadSideStream<N> stream(batch_, side, placement_, curve_of(side), side_work_);
-      stream.store(strip(side, 0));
+      stream.scatter(KeptRow<N>{strip(side, 0)});
     }
-    V origin[3];
-    choose_middle<N>(corner(kA).centre(), corner(kC).centre(), origin);
-    for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
-    for (int k = 0; k < 4; ++k) {
-      QuadCorner<N> at = corner(k);
-      at.move(origin, batch_.input + k * quad_block_size(depth_) * L);
-    }
+    choose_middle<N>(corner(kA).centre(), corner(kC).centre(), origin_);
+    for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin_[c], N::splat(placement_.unit), centre_[c]);
   }
   // Point k of a side that has an origin of its own.
   Scalar* strip(int side, int k) const {
@@ -115,7 +111,7 @@ class QuadStream {
     target_.done(j);
   }
 
-  // The 12 points around a side, before the rings are overwritten.
+  // The 12 points around a side.
   HWY_ATTR void curve(int side) {
     const QuadCorner<N> p = corner(side), q = corner((side + 1) % 4);
     const Scalar* const at[3][4] = {{p.ring(7), p.ring(0), q.ring(6), q.ring(7)},
@@ -124,19 +120,7 @@ class QuadStream {
     make_curve<N>(at, placement_, curve_of(side));
   }
 
-  // One corner through all levels; what the rows of each level take from it is kept.
-  HWY_ATTR void refine_corner(int k) {
-    QuadCorner<N> at = corner(k);
-    for (int level = 1; level <= depth_; ++level) {
-      at.refine(level - 1);
-      Scalar* kept = border(level, k);
-      for (int p = 0; p <= kQuadCore; ++p) {
-        const Scalar* from = at.point(static_cast<RingPoint>(p));
-        for (int c = 0; c < 3 * L; c += L) N::store(N::load(from + c), kept + 3 * p * L + c);
-      }
-    }
-  }
-
+  // What the rows of a level take from a corner.
   Scalar* border(int level, int corner) const { return border_ + kQuadBorder * (4 * level + corner) * L; }
   Scalar* row(int level, int j) const { return rows_[level] + (j + 1) % 4 * quad_row_size(level) * L; }
 
@@ -180,8 +164,8 @@ class QuadStream {
   HWY_ATTR void receive(int level, int j) {
     take_bottom(level, j), take_top(level, j);
     if (j < 0) return;
-    const Scalar *middle = row(level, j - 1), *above = row(level, j);
-    const Scalar* below = j >= 1 ? row(level, j - 2) : nullptr;
+    Scalar *const middle = row(level, j - 1), *const above = row(level, j);
+    Scalar* const below = j >= 1 ? row(level, j - 2) : nullptr;
     if (level == depth_) {
       if (below) limit(below, middle, above, j - 1);
       return;
@@ -218,17 +202,19 @@ class QuadStream {
   }
 
   // Rows and columns along the sides take these for their line. Next to a corner its ring has the last word.
-  HWY_ATTR void refine_even(const Scalar* s, const Scalar* m, const Scalar* n, int size, int j,
-                            Scalar* even) {
+  static MemoryLine<N> line(Scalar* row) { return {row, 3 * L}; }
+  HWY_ATTR void refine_even(Scalar* s, Scalar* m, Scalar* n, int size, int j, Scalar* even) {
     const Scalar* mask = j == 0 ? sharp(kAB) : j == size ? sharp(kCD) : nullptr;
-    if (whole(size, 2 * j)) refine_even_quads<N>(s, m, n, size, mask, even);
+    for (int c = 0; c < 3 * L && whole(size, 2 * j); c += L)
+      refine_even_line<N>(line(s + c), line(m + c), line(n + c), size, mask, line(even + c));
     if (j == 0 || j == size) return;
     refine_even_column<N>(s - 3 * L, m - 3 * L, n - 3 * L, sharp(kDA), even - 3 * L);
     const int right = 3 * (size - 1) * L;
     refine_even_column<N>(s + right, m + right, n + right, sharp(kBC), even + 3 * (2 * size - 1) * L);
   }
-  HWY_ATTR void refine_odd(const Scalar* m, const Scalar* n, int size, int j, Scalar* odd) {
-    if (whole(size, 2 * j + 1)) refine_odd_quads<N>(m, n, size, odd);
+  HWY_ATTR void refine_odd(Scalar* m, Scalar* n, int size, int j, Scalar* odd) {
+    for (int c = 0; c < 3 * L && whole(size, 2 * j + 1); c += L)
+      refine_odd_line<N>(line(m + c), line(n + c), size, line(odd + c));
     if (j < 1 || j >= size - 1) return;
     refine_odd_column<N>(m - 3 * L, n - 3 * L, sharp(kDA), odd - 3 * L);
     const int right = 3 * (size - 1) * L;
@@ -323,7 +309,7 @@ class QuadStream {
   Scalar *side_work_, *border_, *curves_, *strips_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   KernelPlacement<Scalar> placement_;
-  V centre_[3];
+  V origin_[3], centre_[3];
   Scalar unit_;
   To target_;
 };

@@ -51,7 +51,8 @@ std::vector<Channel> channels_of(const std::vector<Channel>& whole, const Faces&
     std::unordered_map<std::int32_t, std::int32_t> number;
     for (const std::int32_t f : faces)
       for (std::size_t at = whole_faces.first_corner(f); at < whole_faces.first_corner(f + 1); ++at) {
-        const auto [entry, is_new] = number.try_emplace(c.corners[at], static_cast<std::int32_t>(number.size()));
+        const auto [entry, is_new] =
+            number.try_emplace(c.corners[at], static_cast<std::int32_t>(number.size()));
         for (int k = 0; is_new && k < c.components; ++k) part.values.push_back(c.at(at, k));
         part.corners.push_back(entry->second);
       }

@@ -236,7 +236,7 @@ Normals normals_of(const data::ControlMesh& mesh, std::int32_t v) {
   result.window = window.limit(v).normal;
   result.window_degenerate = window.zero_normals() > 0;
   const BasicLoopRings<ScalarNumber<double>> stream(mesh, adjacency);
-  const double* n = stream.corner(v).head.data() + CornerBlock::kLimit + 3;
+  const double* n = stream.head(v) + CornerBlock::kLimit + 3;
   result.stream = {n[0], n[1], n[2]};
   result.stream_degenerate = stream.degenerate_normals() > 0;
   Ring ring;
@@ -319,7 +319,7 @@ TEST(D12_OneRule, WritesNoNegativeZero) {
       const Adjacency adjacency(mesh);
       const LoopRings rings(mesh, adjacency);
       for (std::size_t k = 3; k < 6; ++k)
-        EXPECT_NE(std::bit_cast<std::uint32_t>(rings.corner(v).head[CornerBlock::kLimit + k]),
+        EXPECT_NE(std::bit_cast<std::uint32_t>(rings.head(v)[CornerBlock::kLimit + k]),
                   std::bit_cast<std::uint32_t>(-0.f))
             << v << " " << down;
     }

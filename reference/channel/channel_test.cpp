@@ -265,10 +265,13 @@ TEST(RandomChannels, HaveTheSameLimitsByBothMethodsAndInDouble) {
         EXPECT_EQ(a.first_exist, b.first_exist) << "seed " << seed << " face " << f << " " << u << " " << v;
         if (a.first_exist && b.first_exist) same(a.d1, b.d1), same(a.d2, b.d2);
         if (a.d11 && b.d11) same(*a.d11, *b.d11), same(*a.d12, *b.d12), same(*a.d22, *b.d22);
-        const auto c = in_double.evaluate(f, 0, Parameter::parse(u).as_double(), Parameter::parse(v).as_double());
+        const auto c =
+            in_double.evaluate(f, 0, Parameter::parse(u).as_double(), Parameter::parse(v).as_double());
         const auto close = [&](const Enclosure3& x, const Vec3<double>& y) {
-          EXPECT_NEAR(std::stod(x[0].value), y.x, 1e-11) << "seed " << seed << " face " << f << " " << u << " " << v;
-          EXPECT_NEAR(std::stod(x[1].value), y.y, 1e-11) << "seed " << seed << " face " << f << " " << u << " " << v;
+          EXPECT_NEAR(std::stod(x[0].value), y.x, 1e-11)
+              << "seed " << seed << " face " << f << " " << u << " " << v;
+          EXPECT_NEAR(std::stod(x[1].value), y.y, 1e-11)
+              << "seed " << seed << " face " << f << " " << u << " " << v;
         };
         close(b.position, c.position);
         EXPECT_EQ(b.first_exist, c.first_exist) << "seed " << seed << " face " << f << " " << u << " " << v;

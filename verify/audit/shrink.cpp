@@ -64,7 +64,8 @@ AuditMesh collapsed(const AuditMesh& whole, std::int32_t a, std::int32_t b) {
       for (std::size_t c = 0; c < value_at_a.size(); ++c) {
         const std::int32_t own = index(c, f, k);
         const auto known = value_at_a[c].find(own);
-        out.mesh.channels[c].corners.push_back(its[k] == b && known != value_at_a[c].end() ? known->second : own);
+        out.mesh.channels[c].corners.push_back(its[k] == b && known != value_at_a[c].end() ? known->second
+                                                                                           : own);
       }
     }
     faces.push_back(corners);
@@ -190,7 +191,8 @@ class Shrinker {
         const auto vertices = std::as_const(candidate.mesh.faces).corners();
         std::int32_t first = -1;
         for (std::size_t at = 0; at < values.size(); ++at)
-          if (vertices[at] == static_cast<std::int32_t>(v)) values[at] = first = first < 0 ? values[at] : first;
+          if (vertices[at] == static_cast<std::int32_t>(v))
+            values[at] = first = first < 0 ? values[at] : first;
         if (values != best_.mesh.mesh.channels[c].corners && take(std::move(candidate))) any = true;
       }
     return any;

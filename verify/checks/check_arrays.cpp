@@ -57,7 +57,8 @@ std::vector<Result> check_written(const Evidence& e) {
     faces += t.triangle_face()[k] == kUnwritten32;
     const std::int64_t of_channels = t.channels_unwritten(k);
     channels += of_channels;
-    if ((any || of_channels > 0) && !r.witness) r.witness = Witness{.face = t.triangle_face()[k], .triangle = k};
+    if ((any || of_channels > 0) && !r.witness)
+      r.witness = Witness{.face = t.triangle_face()[k], .triangle = k};
   }
   for (const auto& [count, what] : {std::pair{positions, "positions"},
                                     {normals, "normals"},

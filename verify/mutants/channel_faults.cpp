@@ -455,8 +455,9 @@ Change channels(const char* name, const char* description, std::function<void(Me
   c.shows = [what](A a) {
     data::ControlMesh other = a.mesh;
     if (other.channels.size() != 2) return false;
-    for (const Channel& c : other.channels)
-      if (!reference::has_exact_cut(a.mesh, c, c.rule.value_or(data::kUsualChannelRule))) return false;
+    for (const Channel& channel : other.channels)
+      if (!reference::has_exact_cut(a.mesh, channel, channel.rule.value_or(data::kUsualChannelRule)))
+        return false;
     what(other);
     return !(other == a.mesh);
   };

@@ -32,7 +32,7 @@ namespace limitcheck::verify {
 
 /// What a subject delivered, exact in double, so that vertices and triangles can be changed, added and removed.
 struct Delivered : DeliveredArrays {
-  bool single = false;                 // it is delivered in float
+  bool single = false;  // it is delivered in float
   // Of the channels that the mesh has, as lc_tessellation says; the latter empty: not delivered.
   std::vector<double> channel_values, channel_derivatives;
   // What is done when it is handed over.

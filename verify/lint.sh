@@ -11,7 +11,7 @@ bash verify/install.sh --dev
 
 git ls-files -z '*.h' '*.cpp' '*.c' | xargs -0 clang-format --dry-run -Werror
 # Names of the field and of file formats that look like slips of the pen; one test misspells on purpose.
-git ls-files -z ':!data/known_answers.json' ':!verify/fuzz/seeds' ':!data/malformed' ':!bench/report/package-lock.json' | xargs -0 codespell --ignore-words-list lod,parm,fo,ot,daa,bund,kown
+git ls-files -z ':!data/known_answers.json' ':!verify/fuzz/seeds' ':!data/malformed' ':!bench/report/package-lock.json' | xargs -0 codespell --ignore-words-list lod,parm,fo,ot,daa,bund,kown,inout
 [[ ${1:-} == --format ]] && exit 0
 
 # Not true of: a constant that a derived number gives another value, on purpose; arrays filled where they are used; if

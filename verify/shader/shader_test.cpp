@@ -91,25 +91,24 @@ TEST_F(ShaderDoor, WhatDoesNotCompileIsNamedWithTheLineOfTheFile) {
   std::istringstream lines(read("wrong.glsl"));
   int number = 1;
   for (std::string line; std::getline(lines, line) && !line.ends_with(" rows;");) ++number;
-  const Outcome o = run("audit --shader wrong.glsl quad-torus", 2);
-  EXPECT_TRUE(says(o.err, "wrong.glsl:" + std::to_string(number) + ":")) << o.err;
-  EXPECT_TRUE(says(o.err, "rows")) << o.err;
+  const Outcome o = run("audit --shader wrong.glsl quad-torus --depth 1 --level quick", 1);
+  EXPECT_TRUE(says(o.out, "does not compile: wrong.glsl:" + std::to_string(number) + ":")) << o.out;
+  EXPECT_TRUE(says(o.out, "rows")) << o.out;
 }
 
-// llvmpipe ends a loop after 65535 turns: one inside another takes a minute and more.
+// A driver may end the loop, as llvmpipe does after some turns: then the points are wrong; or the time is over.
 TEST_F(ShaderDoor, ALoopWithoutEndIsAFindingAndTheAuditGoesOn) {
   plant("function.glsl", "  position = vec3(0);\n",
         "  position = vec3(0);\n  if (lc_F > 6)\n    for (int a = 0; a < 1000000000; ++a)\n"
-        "      for (int b = 0; b < 1000000000; ++b) position.x = position.x * 0.999 + at.uv.x;\n");
+        "      for (int b = 0; b < 1000000000; ++b) position.x = position.x * 0.999 + uv.x;\n");
   const json report = audited("wrong.glsl quad-torus quad-cube --depth 1 --level quick --timeout 3", 1);
-  EXPECT_EQ(status(report, "tessellates"), "timeout");
+  EXPECT_TRUE(status(report, "tessellates") == "timeout" || status(report, "positions") == "finding");
   EXPECT_EQ(status(report, "written", "quad-cube"), "held");
 }
 
 TEST_F(ShaderDoor, NotANumberIsAFinding) {
-  plant("function.glsl", "  normal = normalize(cross(along_u, along_v));",
-        "  normal = normalize(cross(along_u, along_v));\n  if (at.face == 3) position.y = sqrt(-1.0 - "
-        "at.uv.x);");
+  plant("function.glsl", "  position = vec3(0);\n",
+        "  position = vec3(0);\n  if (face == 3) position.y = sqrt(-1.0 - uv.x);\n");
   const json report = audited("wrong.glsl quad-torus --depth 1 --level quick", 1);
   EXPECT_EQ(status(report, "finite"), "finding");
   EXPECT_EQ(row(report, "finite")["count"], 9);  // the points of that face

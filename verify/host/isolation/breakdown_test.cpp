@@ -159,7 +159,7 @@ TEST_F(Breakdown, LibrariesThatAreNoSubjectsAreBadInputAndSayWhy) {
       {"naive --timeout 0", "--timeout"},
       {"naive --memory 0", "--memory"},
       {"naive --depths file:missing", "cannot read missing"},
-      {"nobody", "shared libraries (./libnobody.so) and programs (program:COMMAND)"},
+      {"nobody", "shared libraries (./libnobody.so), programs (program:COMMAND) and shaders (shader:FILE)"},
   };
   for (const auto& c : cases) {
     EXPECT_TRUE(says(run("audit " + c.arguments + " tetrahedron", 2).err, c.words)) << c.arguments;

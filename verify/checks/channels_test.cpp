@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "data/generators/named_mesh.h"
@@ -42,13 +43,15 @@ AuditMesh mesh_named(const std::string& name) {
 }
 
 TEST(ChannelRows, NameWhatCameInPlaceOfTheChannel) {
-  for (const auto& [fault, words] :
-       {std::pair{"channel_always_all",
-                  "the values are those of the rule all, where corners-plus1 was asked for"},
-        {"channel_by_vertex", "those of the surface's smooth rule across seams"},
-        {"channel_swapped_components", "right with the first two components exchanged"},
-        {"channel_upside_down", "the second component counted from the other end: 1 - v for v"}}) {
-    const Result r = row_of(with_fault(fault), mesh_named("uv-torus"), "channel-positions");
+  const char* const in_a_chart = "uv-torus";
+  for (const auto& [fault, mesh, words] :
+       {std::tuple{"channel_always_all", "uv:1:quad-torus:8:6",
+                   "the values are those of the rule all, where corners-plus1 was asked for"},
+        {"channel_by_vertex", in_a_chart, "those of the surface's smooth rule across seams"},
+        {"channel_swapped_components", in_a_chart, "right with the first two components exchanged"},
+        {"channel_upside_down", in_a_chart,
+         "the second component counted from the other end: 1 - v for v"}}) {
+    const Result r = row_of(with_fault(fault), mesh_named(mesh), "channel-positions");
     EXPECT_EQ(r.status, Status::kFinding) << fault;
     EXPECT_TRUE(says(r.message, words)) << fault << ": " << r.message;
   }
@@ -73,7 +76,7 @@ TEST(ChannelRows, HaveACommandThatEvaluatesTheChannel) {
     ASSERT_TRUE(r.witness) << check;
     const std::string command = eval_command(r);
     EXPECT_TRUE(command.starts_with("limitcheck eval uv-torus ")) << command;
-    EXPECT_TRUE(command.ends_with(" --channel uv --channel-rule corners-plus1")) << command;
+    EXPECT_TRUE(says(command, " --channel uv --channel-rule corners-plus1")) << command;
     EXPECT_EQ(r.witness->got.size(), check == std::string("channel-positions") ? 2U : 4U);
   }
 }
@@ -101,24 +104,24 @@ TEST(ChannelRows, OfRightSubjectsHoldOnThePlan) {
       if (r.check == "channel-derivatives" && r.worst) worst = std::max(worst, *r.worst / *r.bound);
     }
   }
-  EXPECT_EQ(without_cut, 17);
+  EXPECT_EQ(without_cut, 14);
   EXPECT_LE(worst, .1);
   RecordProperty("worst", fmt::format("{:.3g}", worst));
 }
 
 TEST(ChannelRows, OfASampleAreThoseOfItsFaces) {
-  AuditMesh mesh = mesh_named("uv:5:bumpy:800");
+  AuditMesh mesh = mesh_named("uv:2:bumpy:800");
   mesh.sample = std::make_shared<MeshSample>(mesh.mesh, 30, 1);
   const Result held = row_of(naive(), mesh, "channel-positions"),
                slopes = row_of(naive(), mesh, "channel-derivatives"),
-               bad = row_of(with_fault("channel_linear_last_face"), mesh_named("uv:5:bumpy:60"),
+               bad = row_of(with_fault("channel_linear_last_face"), mesh_named("uv:3:bumpy:60"),
                             "channel-positions");
   EXPECT_EQ(held.status, Status::kHeld) << held.message;
   EXPECT_GT(held.of, 30 * 16 * 3);
   EXPECT_EQ(slopes.status, Status::kHeld) << slopes.message;
   EXPECT_EQ(bad.status, Status::kFinding);
   const Result swapped = row_of(with_fault("channel_swapped_components"), mesh, "channel-positions");
-  EXPECT_EQ(swapped.bad, swapped.of);
+  EXPECT_GT(swapped.bad * 100, swapped.of * 95);  // but where both components are equal
   ASSERT_TRUE(swapped.witness);
   EXPECT_GE(mesh.sample->part_of()[static_cast<std::size_t>(swapped.witness->face)], 0)
       << "a face of the whole";

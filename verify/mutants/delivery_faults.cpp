@@ -39,9 +39,10 @@ Vector& some_normal(D out) {
   return out.normals[some_vertex(out)];
 }
 
-// Round a point inside an edge: there are no other triangles of the face.
+// Round a point inside an edge: there are no other triangles of the face, and these do not go all round it.
 HalfFan on_an_edge(const Delivered& out) {
-  return half_fan(out, [](const HalfFan&, std::size_t incident) { return incident == 3; });
+  return half_fan(out,
+                  [](const HalfFan& fan, std::size_t incident) { return incident == 3 && fan.a != fan.b; });
 }
 
 // Gives the half fan a vertex of its own in place of m, a copy. Returns it.

@@ -74,10 +74,9 @@ const std::vector<PlannedCase>& small_cases() {
       {"mixed:1:60", 3, "random:2"},
       {"mixed:1:60", 3, "view"},
       {"mixed-pawn", 2},
-      // Texture coordinates at deep levels, and more of them than 16 bits number.
+      // Texture coordinates at deep levels.
       {"uv:3:quad-cube", 6},
       {"uv:4:tetrahedron", 6},
-      {"uv:7:crowd:16500", 0},
       // The relations of sharp edges and vertices, for subjects that do them.
       {"corner:3", 1, "uniform", true},
       {"sharp:22:60", 1, "uniform", true},

@@ -180,18 +180,20 @@ void run_mutants(Journal& journal,
   std::stable_sort(plan.begin(), plan.end(),
                    [](const AuditMesh& a, const AuditMesh& b) { return cost(a) < cost(b); });
   for (AuditMesh& m : plan) {
-    const bool relations = m.relations;
+    const bool relations = m.relations, turned = m.turned;
     for (Open& at : open) {
       Kill& k = at.kill;
       const bool relation = is_relation(k.mutant->check);
-      if (at.closed || (relation && !relations) || m.scheme() != k.mutant->scheme) continue;
+      const bool by_turning = turned && k.mutant->check == "corner-rotation";
+      if (at.closed || (relation && !relations && !by_turning) || m.scheme() != k.mutant->scheme) continue;
       if (k.mutant->sharp == m.mesh.sharpness.empty()) continue;
       if (is_model(k.mutant->subject, k.mutant->options) && too_much(m)) continue;
       if (k.mutant->shows && !k.mutant->shows(m.mesh, m.depth)) continue;
       if (stop && stop()) return;
       step(k.mutant->name, m);
-      m.relations = relation;
-      m.asked_again = m.turned = false;
+      m.relations = relation && relations;
+      m.turned = by_turning;
+      m.asked_again = false;
       const auto audit = [&](const AuditSubject& subject, std::set<std::string>& killed_by) {
         for (const Result& r : auditor.run(subject, m))
           if (is_bad(r)) killed_by.insert(r.check);

@@ -140,6 +140,7 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--provenance", {"map.csv", 1, ""}},
       {"--fit", {"", 1, ""}},
       {"--tolerance", {"9", 0, ""}},
+      {"--channel-rule", {"all", 1, ""}},
       {"--max-deviation", {"9", 1, ""}},
       {"--no-hausdorff", {"", 1, ""}},
       {"--per-vertex", {"each.csv", 1, "each.csv"}},
@@ -166,7 +167,8 @@ TEST_F(AuditFilesCommand, EveryOptionHasAnEffectOnFilesOrIsRefused) {
       {"--depth", "2"},          {"--depths", "uniform"},   {"--sample", "9"},       {"--exhaustive", "3"},
       {"--option", "a=b"},       {"--shard", "1/2"},        {"--level", "quick"},    {"--shrink", "1"},
       {"--report", "all"},       {"--program", "true"},     {"--timeout", "1"},      {"--memory", "9"},
-      {"--containment", "auto"}, {"--witness-folder", "x"}, {"--checks", "normals"}, {"--rerun", "old.json"}};
+      {"--containment", "auto"}, {"--witness-folder", "x"}, {"--checks", "normals"}, {"--rerun", "old.json"},
+      {"--shader", "x.glsl"}};
   const std::string help = run("audit --help", 0).out;
   const std::regex name("(^|\n) +(?:-[a-z],)?(--[a-z-]+)");
   std::size_t seen = 0;

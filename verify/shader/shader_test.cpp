@@ -115,7 +115,7 @@ TEST_F(ShaderDoor, NotANumberIsAFinding) {
 }
 
 TEST_F(ShaderDoor, PragmasThatMeanNothingAreRefusedWithTheirLine) {
-  for (const auto& [line, what] : {std::pair{"#pragma limitcheck scheme looop", "looop"},
+  for (const auto& [line, what] : {std::pair{"#pragma limitcheck scheme third", "third"},
                                    {"#pragma limitcheck max-depth eleven", "eleven"},
                                    {"#pragma limitcheck pass FACES F( 1..2", "F("},
                                    {"#pragma limitcheck wish all", "wish"}}) {

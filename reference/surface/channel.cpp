@@ -329,8 +329,8 @@ ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channe
   for (std::size_t c = 0; c < values.size(); ++c)
     for (int k = 0; k < std::min(channel.components, 3); ++k)
       (k == 0 ? values[c].x : k == 1 ? values[c].y : values[c].z) = channel.at(c, k);
-  data_ = std::make_unique<Data>(scheme, rule, mesh.sharpness.triangles,
-                                 ChannelMesh<double>(topology_of(mesh, channel, rule), std::move(values)));
+  data_.reset(new Data{scheme, rule, mesh.sharpness.triangles,
+                       ChannelMesh<double>(topology_of(mesh, channel, rule), std::move(values))});
   if (rule == data::ChannelRule::kAll) return;
   const Settled<double> whole = settled(data_->mesh, mesh.sharpness.triangles, {0, 0, 0, 1});
   if (whole.cut.is_exact) data_->surface.emplace(surface_of(whole, scheme));

@@ -55,8 +55,9 @@ class AnywhereSubject {
     std::map<std::array<std::int64_t, 3>, std::uint32_t> known;
     const auto vertex = [&](const Point& named) {
       const Point p = domain.canonical(named, whole);
-      const auto [at, is_new] = known.try_emplace({p.part, p.i, p.j}, 0);
-      if (!is_new) return at->second;
+      const auto found = known.try_emplace({p.part, p.i, p.j}, 0);
+      std::uint32_t& number = found.first->second;
+      if (!found.second) return number;
       const auto denominator = static_cast<std::uint32_t>(domain.denominator(whole));
       const lc_provenance place{face, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
                                 denominator};
@@ -67,7 +68,7 @@ class AnywhereSubject {
       };
       const auto side = domain.side_of(p, whole);
       const auto make = [&](const Evaluated& e) {
-        return at->second = made.add_vertex(e.position, e.normal, place, p.part);
+        return number = made.add_vertex(e.position, e.normal, place, p.part);
       };
       if (!side) return make(evaluated());
       const std::int32_t from = corners[static_cast<std::size_t>(side->side)],

@@ -237,8 +237,7 @@ TEST(OpenMesh, CutsPolygonsOfFilesAndNamesAlikeIfItIsAskedTo) {
 // Surgery of faces leaves channels behind: what is left has no corner beyond its faces.
 TEST(Channels, AreNotThoseOfOtherFaces) {
   for (const char* name : {"handled:2:uv-torus", "turned:1:uv-torus"}) {
-    const ControlMesh mesh = named_mesh(name);
-    for (const Channel& channel : mesh.channels) EXPECT_EQ(fault_of(channel, mesh), "") << name;
+    EXPECT_TRUE(named_mesh(name).channels.empty()) << name;
   }
 }
 

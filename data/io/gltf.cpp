@@ -150,7 +150,12 @@ class Reader {
       const int scene = std::max(model_.defaultScene, 0);
       for (const int node : element(model_.scenes, scene, "scene").nodes) visit(node, kIdentity, 0);
     }
-    for (PolygonSoup::SoupChannel& channel : soup_.channels) channel.corners = soup_.corners;
+    for (PolygonSoup::SoupChannel& channel : soup_.channels) {
+      const std::vector<std::int64_t> of_vertex = std::exchange(channel.corners, soup_.corners);
+      for (std::int64_t& c : channel.corners)
+        c = c >= 0 && static_cast<std::size_t>(c) < of_vertex.size() ? of_vertex[static_cast<std::size_t>(c)]
+                                                                     : -1;
+    }
     return std::move(soup_);
   }
 
@@ -322,7 +327,7 @@ class Reader {
     return known->second;
   }
 
-  // Values of vertices from `begin` on; those of vertices without any are no numbers.
+  // Values of vertices from `begin` on; other vertices have none.
   void add_texture(std::size_t channel, int accessor, std::size_t begin, std::size_t count) try {
     const Bytes values = bytes(accessor, TINYGLTF_TYPE_VEC2);
     if (values.count != count)
@@ -339,11 +344,12 @@ class Reader {
     };
     while (soup_.channels.size() <= channel)
       soup_.channels.push_back({.name = fmt::format("TEXCOORD_{}", soup_.channels.size()), .by_value = true});
-    std::vector<double>& all = soup_.channels[channel].values;
-    all.resize(2 * begin, std::numeric_limits<double>::quiet_NaN());
+    PolygonSoup::SoupChannel& to = soup_.channels[channel];  // its corners are vertices until the end
+    to.corners.resize(begin, -1);
     for (std::size_t k = 0; k < count; ++k) {
       const auto value = pair(k);
-      all.insert(all.end(), value.begin(), value.end());
+      to.corners.push_back(static_cast<std::int64_t>(to.values.size() / 2));
+      to.values.insert(to.values.end(), value.begin(), value.end());
     }
   } catch (const InputError& refusal) {
     soup_.notes.push_back(fmt::format("TEXCOORD_{} is left out: {}", channel, refusal.what()));

@@ -98,7 +98,11 @@ class ObjReader {
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word())
       value.push_back(to_double(word).value_or(kNone));
     uv_.components = std::max(uv_.components, static_cast<int>(std::min(value.size(), kTexture)));
-    if (value.empty() || value.size() > kTexture) value = {kNone};
+    if (value.empty() || value.size() > kTexture) {
+      soup_.notes.push_back(
+          fmt::format("line {}: {} numbers are no texture coordinates", scanner_.line(), value.size()));
+      value = {kNone};
+    }
     value.resize(kTexture, 0);
     uv_.values.insert(uv_.values.end(), value.begin(), value.end());
   }
@@ -223,9 +227,10 @@ class ObjReader {
     }
   }
 
-  // From 1, or backwards from the latest of `count`: -1 and less are none of them.
+  // From 1, or backwards from the latest of `count`: -2 is none of them.
   static std::int64_t from_zero(std::int64_t index, std::size_t count) {
-    return index > 0 ? index - 1 : index < 0 ? static_cast<std::int64_t>(count) + index : -2;
+    const auto n = static_cast<std::int64_t>(count);
+    return index > 0 ? index - 1 : index < 0 && index >= -n ? n + index : -2;
   }
 
   std::int64_t vertex_of(std::string_view word) {

@@ -189,8 +189,8 @@ class PlyReader {
     // Values of corners take the place of those of vertices.
     const std::vector<std::size_t> texture = places_of(element, {"texcoord"}, true);
     if (!texture.empty()) uv_ = {.name = "uv", .by_value = true};
-    std::int64_t numbers = 0,
-                 unlike = -1;  // of the texture coordinates of a face; the first without two a corner
+    std::int64_t numbers = 0;  // of a face's texture coordinates
+    std::int64_t unlike = -1;  // the first face that has not two for each corner
     const auto take = [&](std::size_t k, const Property& property) {
       if (!texture.empty() && k == texture[0]) {
         numbers = body.list_size(property);

@@ -106,14 +106,14 @@ void join_equal_values(Channel& channel, const Faces& faces) {
 void add_channels(const PolygonSoup& soup, const std::vector<std::int64_t>& polygon_of, Examination& result) {
   for (const PolygonSoup::SoupChannel& given : soup.channels) {
     Channel channel{given.name, given.components, given.values, {}, given.rule};
-    constexpr std::int64_t kBeyond = std::numeric_limits<std::int32_t>::max() - 1;  // an index of no value
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
     std::int64_t without = -1;  // the first polygon with such an index
     for (const std::int64_t polygon : polygon_of)
       for (std::size_t c = polygon == 0 ? 0 : soup.polygon_end[polygon - 1]; c < soup.polygon_end[polygon];
            ++c) {
         const std::int64_t index = c < given.corners.size() ? given.corners[c] : -1;
-        if ((index < -1 || index > kBeyond) && without < 0) without = polygon;
-        channel.corners.push_back(static_cast<std::int32_t>(index < -1 ? kBeyond : std::min(index, kBeyond)));
+        if ((index < -1 || index > kMost) && without < 0) without = polygon;
+        channel.corners.push_back(static_cast<std::int32_t>(index));
       }
     if (const std::string fault = without >= 0
                                       ? fmt::format("face {} has an index of no value", soup.first + without)

@@ -149,7 +149,7 @@ class UsdReader {
       note(line, fmt::format("{} is read over", io::quoted(name)));
     UsdValue* value = nullptr;
     if (words_.take_if("=")) {
-      if (is_read && words_.next().text != "None") {
+      if (is_read && (words_.next().kind != UsdToken::Kind::kWord || words_.next().text != "None")) {
         const auto [at, is_new] = values.emplace(name, UsdValue{{}, "", line});
         if (!is_new) words_.fail("FILE_SYNTAX", fmt::format("{} is there twice", name), line);
         value = &at->second;
@@ -372,18 +372,19 @@ class UsdReader {
   void add_corners(PolygonSoup::SoupChannel& to, const UsdValue& value, const std::vector<std::int64_t>& list,
                    std::int64_t first_vertex, std::size_t corners, bool left_handed) const {
     const std::size_t begin = soup_.corners.size() - corners;
-    const auto offset = static_cast<std::int64_t>(to.values.size()) / to.components;
+    const auto offset = static_cast<std::int64_t>(to.values.size()) / to.components,
+               count = static_cast<std::int64_t>(value.numbers.size()) / to.components;
     to.values.insert(to.values.end(), value.numbers.begin(), value.numbers.end());
     to.corners.resize(begin, -1);
     std::size_t at = 0;
-    for (const auto end : soup_.polygon_end) {
-      if (end <= begin) continue;
-      const std::size_t size = end - begin - at;
+    for (auto end = std::upper_bound(soup_.polygon_end.begin(), soup_.polygon_end.end(), begin);
+         end != soup_.polygon_end.end(); ++end) {
+      const std::size_t size = *end - begin - at;
       for (std::size_t k = 0; k < size; ++k) {
         const std::size_t place =
             first_vertex < 0 ? at + (left_handed && k > 0 ? size - k : k)
                              : static_cast<std::size_t>(soup_.corners[begin + at + k] - first_vertex);
-        to.corners.push_back(list[place] < 0 ? -2 : list[place] + offset);
+        to.corners.push_back(list[place] < 0 || list[place] >= count ? -2 : list[place] + offset);
       }
       at += size;
     }

@@ -32,12 +32,11 @@ void append_tags(std::string& text, const Sharpness& sharpness) {
   if (sharpness.triangles == TriangleRule::kSmooth) text += "t smoothtriangles 0/0/1 smooth\n";
 }
 
-// The one channel that a format has a place for, of up to so many components.
+// The one channel that a format has a place for.
 const Channel* texture_of(const ControlMesh& mesh, FileFormat format) {
-  const int most = format == FileFormat::kObj ? 3 : format == FileFormat::kPly ? 2 : 0;
-  const int least = format == FileFormat::kPly ? 2 : 1;
   const auto found = std::find_if(mesh.channels.begin(), mesh.channels.end(), [&](const Channel& c) {
-    return c.name == "uv" && c.components >= least && c.components <= most;
+    return c.name == "uv" &&
+           (format == FileFormat::kObj ? c.components <= 3 : format == FileFormat::kPly && c.components == 2);
   });
   return found == mesh.channels.end() ? nullptr : &*found;
 }

@@ -20,8 +20,8 @@ struct WriteOptions {
 /// whole or not at all: it is written under a temporary name beside the final one and renamed. A file that is
 /// not regular (a pipe, /dev/stdout) is written to directly.
 ///   sharpness  OBJ has all of it, as OpenSubdiv's tags; PLY sharp edges, as elements; infinity becomes 10
-///   channels   OBJ has the one that is called uv, as texture coordinates; PLY too if it has two components, by value and
-///              without its rule; all else is left_out()
+///   channels   OBJ has the one that is called uv, as texture coordinates; PLY too if it has two components, without
+///              its rule, and values that are equal at a vertex become one; all else is left_out()
 ///   throws     InputError: FILE_UNKNOWN_FORMAT, FILE_UNSUPPORTED (STL, and a sharpness that the format has
 ///              no place for), FILE_CANNOT_WRITE (with the system's reason)
 void write_mesh(const std::filesystem::path& file, const ControlMesh& mesh, const WriteOptions& options = {});

@@ -8,15 +8,13 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "data/error.h"
-#include "reference/catmull_clark/stam.h"
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
-#include "reference/loop/stam.h"
 #include "reference/point/parameter_exact.h"
 #include "reference/surface/certify.h"
+#include "reference/surface/surface.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -49,15 +47,9 @@ struct Descent {
 };
 
 template <class N>
-std::vector<Vec3<N>> values_of(const ChannelCut& cut, const std::vector<Vec3<N>>& at_corners) {
-  std::vector<Vec3<N>> result;
-  for (const std::size_t c : cut.corner_of) result.push_back(at_corners[c]);
-  return result;
-}
-template <class N>
 Settled<N> settled(const ChannelMesh<N>& near, data::TriangleRule triangles, const Descent& at) {
   Settled<N> result{cut_and_hold(near, triangles), {}, at.corner, at.u, at.v, at.factor};
-  result.values = values_of(result.cut, near.values);
+  for (const std::size_t c : result.cut.corner_of) result.values.push_back(near.values[c]);
   const auto corners = result.cut.faces[0];
   std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(at.turn), corners.end());
   return result;
@@ -224,26 +216,12 @@ ChannelTopology topology_of(const data::ControlMesh& mesh, const data::Channel& 
   return {Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule};
 }
 
-/// The surface of a cut, in double.
-using CutSurface = std::variant<StamEvaluator<double>, catmull_clark::StamEvaluator<double>>;
-CutSurface surface_of(const Settled<double>& part, data::Scheme scheme) {
-  if (scheme == data::Scheme::kCatmullClark)
-    return catmull_clark::StamEvaluator<double>(part.cut.faces, part.values, part.cut.tags);
-  std::vector<Triangle> triangles;
-  for (std::size_t f = 0; f < part.cut.faces.size(); ++f) {
-    const auto corners = part.cut.faces[f];
-    triangles.push_back({corners[0], corners[1], corners[2]});
-  }
-  return StamEvaluator<double>(part.values, triangles, Weights::kLoop, part.cut.tags);
-}
-SurfacePoint<double> evaluate_on(const CutSurface& surface, int face, int corner, double u, double v) {
-  if (const auto* loop = std::get_if<StamEvaluator<double>>(&surface))
-    return loop->evaluate(face, u, v, Derivatives::kFirst);
-  return std::get<catmull_clark::StamEvaluator<double>>(surface).evaluate(face, corner, u, v,
-                                                                          Derivatives::kFirst);
+Surface surface_of(const Settled<double>& part, data::Scheme scheme) {
+  return {part.cut.faces, part.values, part.cut.tags, scheme};
 }
 
-// Whether no edge whose sharpness falls by edges on both sides of a seam ends at face 0. Of others its values do not know.
+// Whether every vertex of face 0 on a seam is without semi-sharp inner edges. By Chaikin's creasing the sharpness of
+// such an edge falls by edges that the cut does not have.
 bool has_exact_cut(const ChannelTopology& near) {
   const Topology& topology = near.topology;
   const auto corners = topology.faces()[0];
@@ -262,7 +240,7 @@ struct Near {
   ChannelMesh<double> mesh;
   bool has_cut;
   std::map<std::size_t, std::unique_ptr<Near>> finer{};
-  std::optional<CutSurface> surface{};
+  std::optional<Surface> surface{};
 };
 
 /// As Steps, of which each is made once, until the cut is exact.
@@ -297,7 +275,7 @@ struct ChannelSurface::Data {
   data::ChannelRule rule;
   data::TriangleRule triangles;
   ChannelMesh<double> mesh;
-  std::optional<CutSurface> surface{};  // none by the rule `all`, and where no cut is exact
+  std::optional<Surface> surface{};  // none by the rule `all`, and where no cut is exact
   // Where none is: what is near each face that was asked for.
   std::mutex mutex{};
   std::map<std::size_t, Near> near{};
@@ -314,8 +292,8 @@ struct ChannelSurface::Data {
     if (!steps.at->surface)
       steps.at->surface.emplace(surface_of(settled(steps.near(), triangles, at), scheme));
     lock.unlock();
-    SurfacePoint<double> point =
-        evaluate_on(*steps.at->surface, 0, at.corner, number_from<double>(at.u), number_from<double>(at.v));
+    SurfacePoint<double> point = steps.at->surface->evaluate(0, at.corner, number_from<double>(at.u),
+                                                             number_from<double>(at.v), Derivatives::kFirst);
     scale_derivatives(point, number_from<double>(at.factor));
     return point;
   }
@@ -325,6 +303,7 @@ ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channe
                                data::ChannelRule rule, data::Scheme scheme) {
   if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
     throw data::ArgumentError("channel '" + channel.name + "': " + fault);
+  if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
   std::vector<Vec3<double>> values(channel.corners.size());
   for (std::size_t c = 0; c < values.size(); ++c)
     for (int k = 0; k < std::min(channel.components, 3); ++k)
@@ -339,7 +318,7 @@ ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channe
 ChannelSurface::~ChannelSurface() = default;
 
 SurfacePoint<double> ChannelSurface::evaluate(int face, int corner, double u, double v) const {
-  if (data_->surface) return evaluate_on(*data_->surface, face, corner, u, v);
+  if (data_->surface) return data_->surface->evaluate(face, corner, u, v, Derivatives::kFirst);
   const auto f = static_cast<std::size_t>(face);
   if (data_->rule != data::ChannelRule::kAll) return data_->by_steps(f, corner, u, v);
   const data::Faces& faces = data_->mesh.topology.faces();

@@ -3,10 +3,12 @@
 
 namespace limitcheck::reference {
 
-Surface::Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights)
+Surface::Surface(const data::Faces& faces, std::vector<Vec3<double>> positions, const SharpTags& tags,
+                 data::Scheme scheme, Weights weights)
     : evaluator_([&]() -> decltype(evaluator_) {
-        if (scheme == data::Scheme::kLoop) return StamEvaluator<double>(mesh, weights);
-        return catmull_clark::StamEvaluator<double>(mesh.faces, positions_of<double>(mesh), mesh.sharpness);
+        if (scheme == data::Scheme::kCatmullClark)
+          return catmull_clark::StamEvaluator<double>(faces, std::move(positions), tags);
+        return StamEvaluator<double>(std::move(positions), data::Triangles(faces).to_vector(), weights, tags);
       }()) {}
 
 RefinedSurface::RefinedSurface(const data::ControlMesh& mesh, data::Scheme scheme, int depth, Weights weights)

@@ -19,7 +19,10 @@ namespace limitcheck::reference {
 class Surface {
  public:
   ///   weights  of Loop's scheme
-  Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights = Weights::kLoop);
+  Surface(const data::ControlMesh& mesh, data::Scheme scheme, Weights weights = Weights::kLoop)
+      : Surface(mesh.faces, positions_of<double>(mesh), mesh.sharpness, scheme, weights) {}
+  Surface(const data::Faces& faces, std::vector<Vec3<double>> positions, const SharpTags& tags,
+          data::Scheme scheme, Weights weights = Weights::kLoop);
 
   /// At (l1, l2) of a triangle of Loop's scheme, whose corner is 0; at (u, v) of a quad, whose corner is 0,
   /// or of the sub-quad at a corner of another face.

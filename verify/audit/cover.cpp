@@ -321,9 +321,8 @@ AuditMesh made(const PlannedCase& planned) {
   m.depths = planned.depths;
   m.relations = planned.relations;
   m.asked_again = planned.asked_again;
-  constexpr int kDeep =
-      4;  // points cost most there, and what turned corners show is seen at lower depths, too
-  m.turned = planned.depth < kDeep;
+  // Points cost most at deep levels, and what turned corners show is seen at lower ones, too.
+  m.turned = planned.depth < 4;
   if (m.mesh.positions.size() > 0x8000 && m.depth > 0)
     m.sample = std::make_shared<MeshSample>(m.mesh, kSampled, 1);
   return m;

@@ -110,7 +110,7 @@ std::vector<AuditMesh> default_plan(Level level) {
   for (const bool triangles : {true, false}) {
     const auto& stars = data::planned_stars(triangles);
     for (std::size_t k = 0; k < stars.size(); ++k)
-      // Every second one has a channel, or two, which shape nothing: a quarter of the meshes of the plan.
+      // Every second one has a channel, or two, which shape nothing.
       cases.push_back(
           {fmt::format("{}{}:{}", k % 2 != 0 ? "" : fmt::format("{}:{}:", k % 8 == 6 ? "uvs" : "uv", k + 1),
                        triangles ? "stars" : "quad-stars", k + 1),

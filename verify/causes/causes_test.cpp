@@ -80,6 +80,15 @@ TEST(Causes, RowsThatFollowFromOthersAreTheirConsequences) {
   EXPECT_EQ(all[0].consequences, (std::vector<std::string>{"mirror", "normals-against-positions"}));
 }
 
+TEST(Causes, WrongPointsExplainNothingOfChannels) {
+  const auto of = [](const char* check) {
+    return sorted_into_causes(report_of({red("s", "m", "positions", 1e-2), red("s", "m", check, 1e-2)}))
+        .size();
+  };
+  EXPECT_EQ(of("continuity"), 1U);
+  EXPECT_EQ(of("channel-positions"), 2U);
+}
+
 TEST(Causes, NumbersThatAreNoneAreOneCauseOfALibrary) {
   Result finite = red("lib-a", "m", "finite", 0), line = red("lib-b", "m", "degenerate-geometry", 0);
   Result scaled = red("lib-b", "m", "scaling", 0);

@@ -7,6 +7,7 @@
 
 #include "verify/checks/checks.h"
 #include "verify/evidence/evidence.h"
+#include "verify/evidence/other_channel.h"
 #include "verify/evidence/vector.h"
 #include "verify/row/statistics.h"
 
@@ -101,6 +102,7 @@ std::vector<Result> check_finite(const Evidence& e) {
             r.witness = e.at_vertex(t.triangles()[k][static_cast<std::size_t>(corner)]);
             r.witness->triangle = k;
             r.witness->got = {x};
+            name_channel(*r.witness, e.mesh.channels[c]);
           }
         }
   r.of = t.vertex_count() * (t.has_normals() ? 2 : 1);

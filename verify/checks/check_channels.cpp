@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -15,6 +14,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "data/numeral.h"
 #include "reference/surface/channel.h"
 #include "verify/checks/checks.h"
 #include "verify/evidence/other_channel.h"
@@ -70,8 +70,7 @@ Values values_of(const reference::Vec3<double>& v) {
   return vector_of(v);
 }
 Values values_of(const reference::Enclosure3& v) {
-  return {std::strtod(v[0].value.c_str(), nullptr), std::strtod(v[1].value.c_str(), nullptr),
-          std::strtod(v[2].value.c_str(), nullptr)};
+  return {data::parse<double>(v[0].value), data::parse<double>(v[1].value), data::parse<double>(v[2].value)};
 }
 Point point_of(const auto& p) {
   return {values_of(p.position), {values_of(p.d1), values_of(p.d2)}, p.first_exist};
@@ -132,10 +131,9 @@ class Part {
     }
     return p;
   }
-  // What should come, by this channel or another in its place.
-  std::vector<Point> expected(const std::vector<Place>& places, const data::Channel& channel,
-                              data::ChannelRule by_rule) const {
-    const reference::ChannelSurface surface(e_.mesh, channel, by_rule, e_.lattice.scheme());
+  // What should come.
+  std::vector<Point> expected(const std::vector<Place>& places) const {
+    const reference::ChannelSurface surface(e_.mesh, values_, rule(), e_.lattice.scheme());
     std::vector<Point> all;
     all.reserve(places.size());
     for (const Place& p : places) all.push_back(evaluate(surface, p));
@@ -154,7 +152,7 @@ class Part {
         std::optional<Point>& point = known[corner.at];
         if (!point) point = evaluate(surface, corners.places[corner.at]);
         const double off = error(got(corner), *point);
-        if (!(off >= 0 && off <= bound()) && !explains(++bad, wrong, std::ssize(corners.all))) return false;
+        if (off > bound() && !explains(++bad, wrong, std::ssize(corners.all))) return false;
       }
     return true;
   }
@@ -162,10 +160,8 @@ class Part {
     if (!certified_)
       certified_ =
           std::make_unique<reference::ChannelEvaluator>(e_.mesh, values_, rule(), e_.lattice.scheme());
-    const auto parameter = [&](std::uint32_t n) {
-      return reference::Parameter::parse(fraction(n, p.denominator));
-    };
-    return point_of(certified_->evaluate(p.face, p.corner, parameter(p.i), parameter(p.j), 20)[0]);
+    return point_of(certified_->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
+                                         reference::Parameter::fraction(p.j, p.denominator), 20)[0]);
   }
 
   // In diagonals; negative where nothing can be judged.
@@ -253,9 +249,8 @@ class ChannelRow {
     w.vertex = e_.tessellation.triangles()[c.triangle][static_cast<std::size_t>(c.k)];
     w.triangle = c.triangle;
     name_channel(w, part.channel());
-    const Point got = part.got(c), is = is_bad(row_)
-                                            ? part.certified(place_of(k))
-                                            : part.expected({place_of(k)}, part.channel(), part.rule())[0];
+    const Point got = part.got(c),
+                is = is_bad(row_) ? part.certified(place_of(k)) : part.expected({place_of(k)})[0];
     const auto put = [&](std::vector<double>& to, const Point& p) {
       if (bound_ == &Part::bound) return void(to = part.shown(p.value));
       for (const Values& d : p.derivative)
@@ -339,7 +334,7 @@ std::vector<Result> check_channels(const Evidence& e) {
   std::string said;
   std::int64_t without = 0, not_finite = 0;
   for (const Part& part : parts) {
-    const std::vector<Point> expected = part.expected(corners.places, part.channel(), part.rule());
+    const std::vector<Point> expected = part.expected(corners.places);
     for (const Corner& c : corners.all) {
       not_finite += !is_finite(part.got(c).value);
       without += !expected[c.at].has_derivatives;

@@ -266,7 +266,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
     say(r, fmt::format("{} vertices {}", off_lattice,
                        e.capabilities.points_anywhere == 0
                            ? "off the lattice"
-                           : "of fractions that have no common denominator below 2^32 with the others"));
+                           : "in no face, or without a common denominator below 2^32"));
   if (r.bad == 0 && nowhere.wrong()) {
     r.bad = 1;
     r.witness = Witness{.triangle = nowhere.triangle};

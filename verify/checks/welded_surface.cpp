@@ -70,34 +70,23 @@ std::int64_t faces_without_area(const Evidence& e) {
 
 namespace {
 
-// The points that vertices name inside the edges of one visible face, in the order in which it runs along them.
-std::vector<std::vector<Lattice::Id>> named_on_boundary(const Evidence& e) {
-  const Lattice& lattice = e.lattice;
-  std::vector<std::vector<Lattice::Id>> named(lattice.edges().size());
-  for (const Lattice::Id id : e.point)
-    if (id != Lattice::kNone && lattice.is_shared(id) && !lattice.is_vertex(id))
-      named[lattice.edge_of(id)].push_back(id);
-  for (std::size_t k = 0; k < named.size(); ++k) {
-    const Lattice::Edge& edge = lattice.edges()[k];
-    const int s = edge.face[0] >= 0 && e.face_depth[edge.face[0]] >= 0 ? 0 : 1;
-    if (edge.face[s] < 0) continue;
-    const FaceDomain domain = lattice.domain(edge.face[s]);
-    const auto along = [&](Lattice::Id id) {
-      return domain.along(*lattice.in_face(id, edge.face[s]), edge.corner[s], lattice.scale());
-    };
-    std::sort(named[k].begin(), named[k].end(),
-              [&](Lattice::Id a, Lattice::Id b) { return along(a) < along(b); });
-    named[k].erase(std::unique(named[k].begin(), named[k].end()), named[k].end());
-  }
-  return named;
+// The points on each edge, its ends apart, that are corners of triangles.
+std::vector<std::vector<Lattice::Id>> used_on_edges(const Evidence& e) {
+  std::vector<std::vector<Lattice::Id>> used(e.lattice.edges().size());
+  for (std::int64_t k = 0; k < e.tessellation.triangle_count(); ++k)
+    for (std::size_t c = 0; c < 3 && e.tessellation.triangle_ok(k); ++c)
+      if (const Lattice::Id id = e.point[e.tessellation.triangles()[k][c]];
+          id != Lattice::kNone && e.lattice.is_shared(id) && !e.lattice.is_vertex(id))
+        used[e.lattice.edge_of(id)].push_back(id);
+  return used;
 }
 
 }  // namespace
 
 Outline::Outline(const Evidence& e) : lattice_(e.lattice) {
   const std::vector<std::int32_t> deepest = deepest_near(e);
-  const auto named =
-      e.capabilities.points_anywhere != 0 ? named_on_boundary(e) : std::vector<std::vector<Lattice::Id>>();
+  const auto used =
+      e.capabilities.points_anywhere != 0 ? used_on_edges(e) : std::vector<std::vector<Lattice::Id>>();
   for (const Lattice::Edge& edge : lattice_.edges()) {
     int visible = 0, which = 0;
     for (int s = 0; s < 2; ++s)
@@ -108,12 +97,18 @@ Outline::Outline(const Evidence& e) : lattice_(e.lattice) {
     const int k = edge.corner[which];
     if (e.capabilities.points_anywhere != 0) {
       sides_.push_back({face, k, 0, 0});
-      const std::vector<Lattice::Id>& along =
-          named[static_cast<std::size_t>(&edge - lattice_.edges().data())];
-      for (std::size_t p = 0; p <= along.size(); ++p)
-        steps_.push_back({p == 0 ? lattice_.vertex(face, k) : along[p - 1],
-                          p == along.size() ? lattice_.vertex(face, lattice_.domain(face).next(k)) : along[p],
-                          side, 0});
+      const FaceDomain domain = lattice_.domain(face);
+      std::vector<std::pair<std::int64_t, Lattice::Id>> along;
+      for (const Lattice::Id id : used[static_cast<std::size_t>(&edge - lattice_.edges().data())])
+        along.emplace_back(domain.along(*lattice_.in_face(id, face), k, lattice_.scale()), id);
+      std::sort(along.begin(), along.end());
+      along.erase(std::unique(along.begin(), along.end()), along.end());
+      along.emplace_back(lattice_.scale(), lattice_.vertex(face, domain.next(k)));
+      Lattice::Id from = lattice_.vertex(face, k);
+      for (const auto& [at, to] : along) {
+        steps_.push_back({from, to, side, 0});
+        from = to;
+      }
       continue;
     }
     sides_.push_back({face, k, e.face_depth[face], deepest[face]});

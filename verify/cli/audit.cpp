@@ -67,8 +67,8 @@ std::vector<verify::AuditSubject> subjects(const Job& job, SubjectLoader& loader
 
 // When all subjects are audited on the default plan, those on a device look at these meshes of it alone.
 bool is_left_out_there(const verify::AuditSubject& subject, const verify::AuditMesh& mesh) {
-  static const std::set<std::string, std::less<>> kLooked{"icosahedron", "sheet",      "torus",
-                                                          "quad-cube",   "quad-torus", "creased-cube"};
+  static const std::set<std::string, std::less<>> kLooked{"icosahedron", "sheet",          "torus",
+                                                          "quad-cube",   "quad-torus:4:3", "creased-cube"};
   return on_a_device(subject) && !kLooked.contains(mesh.name);
 }
 
@@ -317,7 +317,7 @@ void add_audit(CLI::App& app, int& exit_code) {
       "SUBJECT", a->subject,
       fmt::format(
           "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
-          "program:COMMAND. Without it: all on the default meshes. Built in: {}",
+          "program:COMMAND, or shader:FILE. Without it: all on the default meshes. Built in: {}",
           built_in_names()));
   command->add_option(
       "MESH", a->meshes,

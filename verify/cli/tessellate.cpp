@@ -205,7 +205,7 @@ int tessellate(const TessellateArguments& a) {
   }
   progress.clear();
   if (!a.output.empty() && !mesh.channels.empty())
-    say(stderr, "note: texture coordinates are not tessellated: {} has none\n", a.output);
+    say(stderr, "note: channels are not tessellated: {} has none\n", a.output);
 
   if (stats.culled == stats.faces) {
     say(stderr, "limitcheck: nothing to show: all {} faces are seen from behind (is the camera inside?)\n",

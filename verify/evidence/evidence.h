@@ -68,7 +68,7 @@ bool is_finite(const Tessellation& tessellation, std::int64_t vertex);
 /// How many vertices are not.
 std::int64_t not_finite(const Tessellation& tessellation);
 
-/// Where the vertices lie of a subject that delivers points anywhere; of others none, who deliver lattice points.
+/// Where the vertices of a subject lie that delivers points anywhere; empty for one of lattice points.
 std::vector<Place> points_anywhere(const lc_capabilities& capabilities, const Tessellation& tessellation);
 /// Ids of all vertices of a tessellation, in parallel.
 std::vector<Lattice::Id> locate(const Tessellation& tessellation, const Lattice& lattice);

@@ -71,7 +71,7 @@ std::string other_channels(const data::ControlMesh& mesh, const data::Channel& a
           return "the values are those of the surface's smooth rule across seams, with the value that the " +
                  std::string(first ? "first" : "last") + " face at a vertex names for all of them";
   if (fits(changed([](double& u, double& v) { std::swap(u, v); }), rule))
-    return "the values are right with the first two components exchanged";
+    return "the values are right with two components exchanged";
   if (fits(changed([](double&, double& v) { v = 1 - v; }), rule))
     return "the values are right with the second component counted from the other end: 1 - v for v";
   return "";

@@ -84,8 +84,8 @@ bool same(std::span<const T> a, std::span<const T> b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-// All arrays, byte by byte. Points in another order are still the same answer: then they are compared one by
-// one.
+// All arrays byte by byte, channels as different_channels() compares them. Points in another order are still the same
+// answer: then they are compared one by one.
 bool same_arrays(const Tessellation& a, const Tessellation& b) {
   return same(a.positions_f32(), b.positions_f32()) && same(a.positions_f64(), b.positions_f64()) &&
          same(a.normals_f32(), b.normals_f32()) && same(a.normals_f64(), b.normals_f64()) &&
@@ -281,6 +281,7 @@ Comparison Compared::bits_with(const Tessellation& t, const char* where) const {
                             t.triangle_count(), mine.vertex_count(), mine.triangle_count(), where);
   }
   if (const std::int64_t corners = different_channels(mine, t); corners > 0) {
+    if (c.bad == 0 && c.other_bits == 0) c.witness.reset();
     c.bad += corners;
     c.message = fmt::format("channels have other bits at {} corners of triangles", corners);
   }
@@ -355,7 +356,7 @@ void RelationRow::judge(const std::string& what, const Comparison& c, bool bits_
   r_.not_finite += c.not_finite;
   if (!r_.worst || c.worst > *r_.worst) {
     r_.worst = c.worst;
-    r_.witness = c.witness;
+    if (c.bad > 0 || r_.bad == 0) r_.witness = c.witness;  // a later variant without a fault shows nothing
     comparison_ = fmt::format(
         "{}: positions differ by up to {:.2g} diagonals, normals by {:.2g} degrees; {} of {} in bits", what,
         c.position, c.normal, c.other_bits, c.of);

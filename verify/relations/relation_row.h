@@ -29,8 +29,8 @@ struct Comparison {
   std::string message;
 };
 
-/// How many corners of triangles of the one have channels, values or derivatives, of which the other has not the bits at
-/// a triangle of that face with a corner there.
+/// How many corners of triangles of `a` have no corner of `b` in the same face, at the same position, with the same
+/// bits of channels and their derivatives.
 std::int64_t different_channels(const Tessellation& a, const Tessellation& b);
 
 /// Compares with the tessellation of the evidence, which outlives this.

@@ -227,10 +227,16 @@ class Repair {
     }
     result.soup.sharp = std::move(tags_);
     result.soup.choices = choices_;
-    if (result.soup.corners == before.corners && result.soup.polygon_end == before.polygon_end)
+    bool alike =
+        result.soup.polygon_end == before.polygon_end;  // no polygon went; vertices may have other numbers
+    for (std::size_t k = 0; alike && k < before.corners.size(); ++k)
+      alike = result.soup.positions[static_cast<std::size_t>(result.soup.corners[k])] ==
+              before.positions[static_cast<std::size_t>(before.corners[k])];
+    if (alike)
       result.soup.channels = before.channels;
     else
-      note("dropped", static_cast<std::int64_t>(before.channels.size()), "channel", "of other corners");
+      note("dropped", static_cast<std::int64_t>(before.channels.size()), "channel",
+           "of faces that are not those of before");
     const auto same_tag = [](const Tag& a, const Tag& b) {
       return a.a == b.a && a.b == b.b && a.sharpness == b.sharpness;
     };

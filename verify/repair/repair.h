@@ -28,7 +28,8 @@ struct Repaired {
 /// corners; gives faces that share an edge the same orientation, and cuts the mesh apart where that cannot
 /// be, along edges of three faces or more and at vertices where fans touch (CGAL, Polygon_mesh_processing);
 /// drops vertices that no face names; removes interior vertices of two faces, which become one face. It moves
-/// no vertex and fills no hole, and does not turn a whole component inside out.
+/// no vertex and fills no hole, and does not turn a whole component inside out. Channels stay if all faces do, corner
+/// by corner; else they are dropped.
 Repaired repair(const data::io::PolygonSoup& soup, const RepairOptions& options = {});
 
 }  // namespace limitcheck::verify

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <tuple>
 #include <type_traits>

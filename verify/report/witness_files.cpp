@@ -79,7 +79,8 @@ void write_files(const std::filesystem::path& folder, const std::filesystem::pat
     json["l2"] = w.l2.empty() ? Json(nullptr) : Json(w.l2);
     json["expected"] = numbers(w.expected);
     json["got"] = numbers(w.got);
-    if (const std::string command = eval_command(here); !command.empty()) {
+    if (const std::string command = eval_command(here);
+        !command.empty() && (w.channel.empty() || w.channel == "uv")) {  // control.obj has no other
       if (w.channel.empty()) add_limit(json, result, mesh.mesh);
       json["eval"] = command + " --digits 40";
     }

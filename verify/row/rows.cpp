@@ -166,8 +166,8 @@ const std::vector<RowKind>& row_kinds() {
        "the bytes delivered"},
 
       // Of finished tessellations (--tessellation).
-      {"file-finite", "finite", kNotFinite, "No position or normal in the file is NaN or infinite.", kNone,
-       "IEEE 754"},
+      {"file-finite", "finite", kNotFinite,
+       "No position, normal or texture coordinate in the file is NaN or infinite.", kNone, "IEEE 754"},
       {"file-unused", "delivers", kOther,
        "Vertices that no face names: a warning. Only whether they are finite is looked at.", kNone,
        "the faces of the file"},

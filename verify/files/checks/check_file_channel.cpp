@@ -89,7 +89,9 @@ Judged judged(const FileEvidence& e, const std::vector<TexturedCorner>& corners,
 std::vector<Result> check_file_channel(const FileEvidence& e) {
   const auto is_texture = [](const data::Channel& c) { return c.components == 2 || c.components == 3; };
   const auto& channels = e.control.channels;
-  const auto first = std::find_if(channels.begin(), channels.end(), is_texture);
+  auto first =
+      std::find_if(channels.begin(), channels.end(), [](const auto& c) { return c.components == 2; });
+  if (first == channels.end()) first = std::find_if(channels.begin(), channels.end(), is_texture);
   if (first == channels.end()) return {};
   const data::Channel channel = first->some(0, 2);
   Result r = e.result("file-channel", "diagonal of the channel", e.tolerance);

@@ -49,7 +49,7 @@ for line in open(cage):
         vertices.append(tuple(float(x) for x in words[1:4]))
     elif words and words[0] == "f":
         faces.append([int(w.split("/")[0]) - 1 for w in words[1:]])
-        texture_of_faces.extend(int(w.split("/")[1]) - 1 for w in words[1:] if "/" in w)
+        texture_of_faces.extend(int(w.split("/")[1]) - 1 for w in words[1:] if "/" in w.split("//")[0])
     elif words and words[0] == "vt":
         texture.append([float(x) for x in words[1:3]])
     elif words and words[0] == "t":

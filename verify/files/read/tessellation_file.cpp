@@ -28,8 +28,11 @@ FileTessellation read_tessellation(const std::filesystem::path& file) {
     const std::int64_t normal = soup.corner_normals[at];
     return normal >= 0 && normal < static_cast<std::int64_t>(soup.normals.size()) ? normal : -1;
   };
-  const auto channel = std::find_if(soup.channels.begin(), soup.channels.end(),
-                                    [](const auto& c) { return c.components == 2 || c.components == 3; });
+  const auto with = [&](int components) {
+    return std::find_if(soup.channels.begin(), soup.channels.end(),
+                        [&](const auto& c) { return c.components == components; });
+  };
+  const auto channel = with(2) != soup.channels.end() ? with(2) : with(3);
   const bool has_texture = channel != soup.channels.end() && channel->corners.size() == soup.corners.size();
   if (has_texture)
     for (std::size_t k = 0; k + 1 < channel->values.size();

@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "data/control_mesh.h"
-#include "data/cut_channels.h"
 #include "data/error.h"
 
 namespace limitcheck::data {

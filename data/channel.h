@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 namespace limitcheck::data {
 
 struct ControlMesh;
+class Faces;
 
 /// What a channel does at seams and on the boundary: OpenSubdiv's "face-varying linear interpolation" and USD's
 /// faceVaryingLinearInterpolation. Each rule holds more values where they are than the one before.
@@ -60,5 +62,10 @@ std::string fault_of(const Channel& channel, const ControlMesh& mesh, std::int64
 
 /// The channel of that name. Throws ArgumentError: there is none; the message names those there are.
 const Channel& channel_of(const ControlMesh& mesh, std::string_view name);
+
+/// What channels of a whole mesh some of its faces have: their corners, and the values that these name.
+///   faces   of the whole, in the order of the part
+std::vector<Channel> channels_of(const std::vector<Channel>& whole, const Faces& whole_faces,
+                                 std::span<const std::int32_t> faces);
 
 }  // namespace limitcheck::data

@@ -149,4 +149,10 @@ std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>
   return plan;
 }
 
+const std::set<std::string, std::less<>>& meshes_for_devices() {
+  static const std::set<std::string, std::less<>> names{"icosahedron", "sheet",          "torus",
+                                                        "quad-cube",   "quad-torus:4:3", "creased-cube"};
+  return names;
+}
+
 }  // namespace limitcheck::verify

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,10 @@ namespace limitcheck::verify {
 /// data/generators/star_meshes.h), and parts of meshes whose indices need more than 16 bits.
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
+
+/// Its meshes that subjects on a device look at where all subjects are audited: a driver without a graphics card takes
+/// minutes for what a processor does in seconds.
+const std::set<std::string, std::less<>>& meshes_for_devices();
 
 /// The cases of a scheme and of sharp edges that some of the subjects does; all without sharp edges if a
 /// subject does not say.

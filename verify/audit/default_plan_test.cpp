@@ -76,6 +76,12 @@ TEST(DefaultPlan, ItsCasesAreValidTypeableAndAreAskedForOnce) {
   }
 }
 
+TEST(DefaultPlan, HasTheMeshesThatDevicesLookAt) {
+  std::set<std::string, std::less<>> left = meshes_for_devices();
+  for (const AuditMesh& m : default_plan(Level::kStandard)) left.erase(m.name);
+  EXPECT_EQ(left.size(), 0U) << *left.begin();
+}
+
 TEST(DefaultPlan, ItsRandomFrameHasCulledFacesAndEveryDepthAndItsViewMoreThanOne) {
   for (const AuditMesh& m : default_plan(Level::kStandard)) {
     const std::set<std::int32_t> depths(m.face_depth.begin(), m.face_depth.end());

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "data/cut_channels.h"
+#include "data/channel.h"
 #include "data/cut_out.h"
 #include "data/validate.h"
 #include "verify/audit/audit.h"

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string_view>
 
 #include "data/bounding_box.h"
@@ -21,12 +20,12 @@
 #include "verify/relations/refusal.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
+#include "verify/subject/devices.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::cli {
 namespace {
 
-// A driver without a graphics card takes minutes for what a processor does in seconds.
 bool on_a_device(const verify::AuditSubject& subject) {
   return std::string_view(subject.subject->name) == "opensubdiv-gl";
 }
@@ -67,9 +66,7 @@ std::vector<verify::AuditSubject> subjects(const Job& job, SubjectLoader& loader
 
 // When all subjects are audited on the default plan, those on a device look at these meshes of it alone.
 bool is_left_out_there(const verify::AuditSubject& subject, const verify::AuditMesh& mesh) {
-  static const std::set<std::string, std::less<>> kLooked{"icosahedron", "sheet",          "torus",
-                                                          "quad-cube",   "quad-torus:4:3", "creased-cube"};
-  return on_a_device(subject) && !kLooked.contains(mesh.name);
+  return on_a_device(subject) && !verify::meshes_for_devices().contains(mesh.name);
 }
 
 // For --help.
@@ -165,6 +162,7 @@ void write_files(const AuditArguments& a, const Audited& audited, const std::str
                 report.containment,
                 report.printed,
                 report.incomplete,
+                report.devices,
                 verify::receipts_json(report.receipts)});
   else if (!a.shard.json.empty() && a.shard.json != "-")
     verify::write_text(a.shard.json, json);
@@ -266,6 +264,7 @@ int audit(const Job& job) {
   }
   const auto finish = [&] {
     report.containment = loader.containment();
+    report.devices = verify::Devices::noted();
     report.receipts = receipts();
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report.printed = output.take();

@@ -51,6 +51,7 @@ TEST_F(EvalChannel, AChannelTakesManyPoints) {
 
 TEST_F(EvalChannel, AChannelThatIsNoneOrCannotBeHasAClearError) {
   write("two.obj", kTwoCharts);
+  EXPECT_NE(run("eval two.obj 0 0 0 --channel ''", 2).err.find("a channel has a name"), std::string::npos);
   EXPECT_NE(run("eval two.obj 0 0 0 --channel st", 2).err.find("the mesh has no channel 'st'; it has uv"),
             std::string::npos);
   EXPECT_NE(run("eval quad-cube 0 0 0 --channel uv", 2).err.find("it has none"), std::string::npos);

@@ -71,6 +71,7 @@ int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
   verify::add_coverage(report, verify::coverage_question(plan.at("coverage")));
   report.seconds = whole.seconds;
   report.containment = whole.containment;
+  report.devices = whole.devices;
   report.receipts = verify::receipts_of(whole.receipts);
   report.printed = whole.printed;
   if (!report.looked()) report.incomplete = nothing_looked_at(plan.at("polygons").get<bool>());

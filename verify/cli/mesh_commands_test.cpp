@@ -305,5 +305,16 @@ TEST_F(CheckCommand, LongListsOfFaultsAreCutAndJsonHasThemAll) {
   EXPECT_GT(json_of("check many.obj --json", 1)["faults"].size(), 300U);
 }
 
+TEST_F(GenerateCommand, WhatBecomesOfChannelsIsSaid) {
+  EXPECT_TRUE(says(run("generate uvs:1:cube -o c.ply", 0).err,
+                   "no place for the rule of the channel uv, the channel colour"));
+  (void)run("generate uv-torus -o torus.obj", 0);
+  EXPECT_TRUE(says(run("check torus.obj", 0).out, "uv: "));
+  EXPECT_EQ(json_of("check torus.obj --json", 0)["channels"][0]["components"], 2);
+  EXPECT_TRUE(says(run("tessellate torus.obj --depth 1 -o fine.obj", 0).err, "fine.obj has none"));
+  (void)run("repair torus.obj -o again.obj", 0);
+  EXPECT_EQ(read("again.obj"), read("torus.obj"));
+}
+
 }  // namespace
 }  // namespace limitcheck::cli

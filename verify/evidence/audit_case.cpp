@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include "data/cut_channels.h"
+#include "data/channel.h"
 #include "data/cut_out.h"
 #include "data/error.h"
 #include "data/io/whole_content.h"

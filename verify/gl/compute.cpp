@@ -13,12 +13,12 @@ namespace limitcheck::verify {
 
 namespace {
 
-// "0:12(5): error: .." of Mesa and "0(12) : error .." of NVIDIA as "FILE:12: error: ..": a text without line ends, of the
-// first messages.
+// "0:12(5): error: .." of Mesa and "0(12) : error .." of NVIDIA as "FILE:12: error: ..": a text without line ends, of
+// the first messages.
 std::string readable(std::string_view log, const std::string& file) {
   std::string text;
   for (int count = 0; !log.empty() && count < 4;) {
-    std::string_view line = log.substr(0, log.find_first_of("\n\r\0"));
+    std::string_view line = log.substr(0, log.find_first_of("\n\r"));
     log.remove_prefix(std::min(log.size(), line.size() + 1));
     if (line.empty()) continue;
     int source = 0, number = 0;
@@ -116,7 +116,7 @@ GuardedBuffer::GuardedBuffer(std::size_t bytes) : size_(bytes) {
 }
 
 GuardedBuffer::~GuardedBuffer() {
-  if (name_ != 0) glDeleteBuffers(1, &name_);
+  glDeleteBuffers(1, &name_);  // none if it is 0
 }
 
 void GuardedBuffer::bind(GLuint binding) const {
@@ -136,21 +136,6 @@ std::vector<std::byte> GuardedBuffer::read() const {
   return content;
 }
 
-InputBuffer::InputBuffer(std::span<const std::int32_t> words) {
-  glCreateBuffers(1, &name_);
-  glNamedBufferData(name_, static_cast<GLsizeiptr>(words.size_bytes()), words.data(), GL_STATIC_DRAW);
-  check_gl("a buffer");
-}
-
-InputBuffer::~InputBuffer() {
-  glDeleteBuffers(1, &name_);
-}
-
-void InputBuffer::bind(GLuint binding) const {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
-  check_gl("glBindBufferBase");
-}
-
 std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_t patches,
                                            std::size_t words) {
   std::vector<std::int32_t> all;
@@ -167,7 +152,7 @@ std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_
     program.set("lc_first_patch", static_cast<std::int32_t>(first));
     std::array<GLuint, 2> primitives{1, 0};
     while (primitives[0] > primitives[1]) {  // how many there are the shader decides
-      room = std::max({room, static_cast<std::size_t>(primitives[0]) * 3 * words * sizeof(std::int32_t)});
+      room = std::max(room, static_cast<std::size_t>(primitives[0]) * 3 * words * sizeof(std::int32_t));
       glNamedBufferData(buffer, static_cast<GLsizeiptr>(room), nullptr, GL_STREAM_READ);
       glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer);
       glBeginQuery(GL_PRIMITIVES_GENERATED, query[0]);

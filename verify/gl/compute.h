@@ -24,7 +24,8 @@ class GlProgram {
     GLenum kind;
     std::string text;
   };
-  /// Lines below kNotOfTheFile are those of `file`: messages name them. (Mesa passes over the number of a source in #line.)
+  /// Lines below kNotOfTheFile are those of `file`: messages name them. (Mesa passes over the number of a source in
+  /// #line.)
   ///   captured  what transform feedback writes, one after the other in one buffer
   GlProgram(const std::vector<Stage>& stages, const std::string& file,
             const std::vector<const char*>& captured = {});
@@ -44,13 +45,16 @@ class GlProgram {
   GLuint program_ = 0;
 };
 
-/// Memory of the device with a guard zone behind it, in which a pattern shows what is written there. All bytes before it
-/// are 0xFF: a NaN, and no index.
+/// Memory of the device with a guard zone behind it, in which a pattern shows what is written there. All bytes before
+/// it are 0xFF until they are written: a NaN, and no index.
 class GuardedBuffer {
  public:
   static constexpr std::size_t kGuard = 1 << 16;
 
   explicit GuardedBuffer(std::size_t bytes);
+  explicit GuardedBuffer(std::span<const std::int32_t> words) : GuardedBuffer(words.size_bytes()) {
+    write(words.data(), words.size_bytes());
+  }
   ~GuardedBuffer();
   GuardedBuffer(const GuardedBuffer&) = delete;
   GuardedBuffer& operator=(const GuardedBuffer&) = delete;
@@ -58,6 +62,9 @@ class GuardedBuffer {
 
   std::size_t size() const { return size_; }
   GLuint name() const { return name_; }
+  void write(const void* bytes, std::size_t count) const {
+    glNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(count), bytes);
+  }
   /// As a shader's storage buffer, with its guard zone.
   void bind(GLuint binding) const;
   /// size() bytes, then those of the guard zone up to the last one that is not as it was.
@@ -68,22 +75,9 @@ class GuardedBuffer {
   GLuint name_ = 0;
 };
 
-/// A storage buffer that is read alone.
-class InputBuffer {
- public:
-  explicit InputBuffer(std::span<const std::int32_t> words);
-  ~InputBuffer();
-  InputBuffer(const InputBuffer&) = delete;
-  InputBuffer& operator=(const InputBuffer&) = delete;
-  void bind(GLuint binding) const;
-
- private:
-  GLuint name_ = 0;
-};
-
-/// What transform feedback captured of patches of one vertex each, drawn as triangles: `words` numbers for each vertex. They
-/// are drawn at most `kMostPatches` at a time, the first one's number in the uniform lc_first_patch: Mesa's llvmpipe numbers the
-/// patches of a call anew from 0 after 1024.
+/// What transform feedback captured of patches of one vertex each, drawn as triangles: `words` numbers for each vertex.
+/// They are drawn at most `kMostPatches` at a time, the first one's number in the uniform lc_first_patch: Mesa's
+/// llvmpipe numbers the patches of a call anew from 0 after 1024.
 std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_t patches, std::size_t words);
 inline constexpr std::int64_t kMostPatches = 1024;
 

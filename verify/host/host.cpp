@@ -130,8 +130,8 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
     throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
-  // A channel that is none of the mesh, as of one with fewer faces, is nobody's to interpolate; nor is one that takes too
-  // long to judge.
+  // A channel that does not fit the mesh, as that of one with fewer faces, is nobody's to interpolate; nor is one
+  // that takes too long to judge.
   std::erase_if(mesh_.channels, [&](const data::Channel& c) {
     const data::ChannelRule rule = c.rule.value_or(data::kUsualChannelRule);
     return (capabilities_.channel_rules >> static_cast<int>(rule) & 1) == 0 ||

@@ -14,12 +14,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "verify/subject/written_outside.h"
+
 namespace limitcheck::verify::detail {
 
 class Memory {
  public:
   static constexpr std::size_t kAlignment = 64;
-  static constexpr std::size_t kGuard = 1024;          // bytes of a guard zone, at least
+  static constexpr std::size_t kGuard = kLeastGuardZone;
   static constexpr std::size_t kNoAccess = 256 << 10;  // bytes beyond each zone
   static constexpr std::size_t kMostBlocks = 1 << 14;  // what the kernel tells apart is limited
   /// Allocations beyond this sum are refused (NULL): a wild count must not exhaust the machine.

@@ -19,7 +19,7 @@ struct Array {
   std::int64_t elements;
   std::size_t element_size, alignment;
   bool required;
-  bool dispensable = false;  // what is there is looked at without it
+  bool dispensable = false;  // the other arrays are judged without it
   const std::byte* begin() const { return static_cast<const std::byte*>(data); }
   std::size_t bytes() const { return static_cast<std::size_t>(elements) * element_size; }
 };

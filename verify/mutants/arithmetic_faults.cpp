@@ -84,6 +84,7 @@ bool is_contracted(A a) {
 
 void contract_by_call_site(A a, D out) {
   if (!is_contracted(a)) return;
+  if (out.normals.empty()) nowhere("normal");
   std::map<std::array<std::uint32_t, 3>, std::array<float, 6>> all;
   contracted_points<Contraction::kByCallSite>(
       a.mesh, a.deepest, [&](const fast::LatticePoint& at, const std::array<float, 6>& vertex) {
@@ -106,8 +107,7 @@ std::vector<Change> faults_of_arithmetic() {
   spline.shows = is_regular;
   Change contracted =
       deliver("contracted_by_call_site",
-              "row streaming by a compiler that fuses products with sums in each copy of code in its "
-              "own way",
+              "row streaming by a compiler that fuses products with sums in each copy of code otherwise",
               "shared-positions", contract_by_call_site);
   contracted.of = "row-stream";
   contracted.shows = is_contracted;

@@ -9,7 +9,7 @@
 
 #include "reference/channel/channel_mesh.h"
 #include "reference/surface/channel.h"
-#include "verify/mutants/change_rows.h"
+#include "verify/mutants/channel_rows.h"
 
 namespace limitcheck::verify {
 
@@ -18,35 +18,6 @@ using namespace rows;
 namespace {
 
 using data::Channel, data::ChannelRule;
-using Uv = Channel&;
-
-// The first channel of a mesh, of which there is one.
-const Channel& uv_of(A a) {
-  return a.mesh.channels.front();
-}
-ChannelRule rule_of(A a) {
-  return uv_of(a).rule.value_or(data::kUsualChannelRule);
-}
-// Whether a subject is handed one channel: see Session.
-bool has_channel(A a) {
-  return a.mesh.channels.size() == 1 && reference::has_exact_cut(a.mesh, uv_of(a), rule_of(a));
-}
-
-Change of_channels(Change c, std::function<bool(A)> shows = {}) {
-  c.on = Change::On::kBoth;
-  if (c.deliver)
-    c.deliver = [what = std::move(c.deliver)](A a, D out) {
-      if (out.channel_values.empty() || a.mesh.channels.size() != 1) nowhere("channel");
-      what(a, out);
-    };
-  if (c.remake)
-    c.remake = [what = std::move(c.remake)](A a, Mesh m) {
-      if (m.channels.size() != 1) nowhere("channel");
-      what(a, m);
-    };
-  c.shows = [shows = std::move(shows)](A a) { return has_channel(a) && (!shows || shows(a)); };
-  return c;
-}
 
 // Another channel of the same surface. Shows where it is another one.
 Change channel(std::string name, std::string description, std::function<void(A, Uv)> what,
@@ -122,25 +93,6 @@ bool extraordinary(A a, std::size_t face) {
   return any_corner(a, face, [&](std::int32_t v) { return a.inside(v) && a.faces(v) != regular; });
 }
 
-// Each corner has the index that `index` says, of a face and a corner of it.
-void reindex(A a, Uv uv, const std::function<std::int32_t(std::size_t, std::size_t)>& index) {
-  const data::Faces& faces = a.mesh.faces;
-  std::vector<std::int32_t> corners;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < faces[f].size(); ++k) corners.push_back(index(f, k));
-  uv.corners = std::move(corners);
-}
-// The index of the first face at the vertex, for all of them.
-void join_seams(A a, Uv uv, const std::function<bool(std::int32_t)>& at) {
-  std::vector<std::int32_t> first(a.mesh.positions.size(), -1);
-  const Channel before = uv;
-  reindex(a, uv, [&](std::size_t f, std::size_t k) {
-    const std::int32_t v = a.mesh.faces[f][k], own = before.corners[a.mesh.faces.first_corner(f) + k];
-    if (!at(v)) return own;
-    std::int32_t& known = first[static_cast<std::size_t>(v)];
-    return known = known < 0 ? own : known;
-  });
-}
 // A value of its own for each run of a value that has several.
 void part_values(A a, Uv uv) {
   const reference::ChannelTopology channel(a.topology, a.mesh.sharpness, uv.corners, ChannelRule::kNone);
@@ -191,13 +143,12 @@ std::vector<Change> by_indices() {
                 });
               }),
       channel("channel_by_corner", "a value for each corner: every edge is a seam",
-              [](A a, Uv uv) {
+              [](A, Uv uv) {
                 Channel apart{uv.name, 2, {}, {}, uv.rule};
                 for (std::size_t c = 0; c < uv.corners.size(); ++c) {
                   apart.values.insert(apart.values.end(), {uv.at(c, 0), uv.at(c, 1)});
                   apart.corners.push_back(static_cast<std::int32_t>(c));
                 }
-                (void)a;
                 uv = apart;
               }),
       channel("channel_parted_values", "a value that meets itself at a vertex alone is several", part_values),
@@ -309,152 +260,19 @@ std::vector<Change> by_values() {
   };
 }
 
-// Of each corner of each triangle: its two derivatives by the first parameter, then those by the second.
-Change derivatives(const char* name, const char* description,
-                   std::function<void(A, std::vector<double>&, const Delivered&)> what,
-                   std::function<bool(A)> shows = {}, const char* check = "channel-derivatives") {
-  return of_channels(deliver(name, description, check,
-                             [what = std::move(what)](A a, D out) {
-                               if (out.channel_derivatives.empty()) nowhere("derivative");
-                               std::vector<double> all = out.channel_derivatives;
-                               what(a, all, out);
-                               out.channel_derivatives = std::move(all);
-                             }),
-                     std::move(shows));
+// Two channels, the second of four components.
+bool has_two(const data::ControlMesh& mesh) {
+  return mesh.channels.size() == 2 && mesh.channels[1].components == 4;
 }
-// Each four numbers.
-Change each_derivative(const char* name, const char* description,
-                       std::function<void(A, std::int32_t face, double* d)> what,
-                       std::function<bool(A)> shows = {}) {
-  return derivatives(
-      name, description,
-      [what](A a, std::vector<double>& all, const Delivered& out) {
-        for (std::size_t c = 0; 4 * c < all.size(); ++c) what(a, out.triangle_face[c / 3], &all[4 * c]);
-      },
-      std::move(shows));
-}
-// Those of another channel on the same mesh.
-Change derivatives_of(const char* name, const char* description, std::function<void(A, Uv)> other) {
-  const auto changed = [other](A a) {
-    data::ControlMesh mesh = a.mesh;
-    other(a, mesh.channels.front());
-    return mesh;
-  };
-  return derivatives(
-      name, description,
-      [changed](A a, std::vector<double>& all, const Delivered&) {
-        all = a.again(changed(a), {a.depth.begin(), a.depth.end()}).channel_derivatives;
-      },
-      [changed](A a) { return !(changed(a) == a.mesh); });
-}
-
-std::vector<Change> by_derivatives() {
-  const auto deep = [](A a) { return a.deepest > 0; };
-  return {
-      each_derivative("channel_derivatives_swapped", "derivatives by u and by v are exchanged",
-                      [](A, std::int32_t, double* d) { std::swap_ranges(d, d + 2, d + 2); }),
-      each_derivative("channel_derivatives_transposed", "the components are exchanged in derivatives",
-                      [](A, std::int32_t, double* d) { std::swap(d[0], d[1]), std::swap(d[2], d[3]); }),
-      each_derivative("channel_derivatives_first_component", "of the first component alone",
-                      [](A, std::int32_t, double* d) { d[1] = d[3] = 0; }),
-      each_derivative("channel_derivatives_negated", "derivatives by v point the other way",
-                      [](A, std::int32_t, double* d) { d[2] = -d[2], d[3] = -d[3]; }),
-      each_derivative("channel_derivatives_by_one_parameter", "derivatives by u stand for both",
-                      [](A, std::int32_t, double* d) { std::copy_n(d, 2, d + 2); }),
-      each_derivative(
-          "channel_derivatives_of_level", "derivatives by the parameters of the smallest quads",
-          [](A a, std::int32_t f, double* d) {
-            for (int k = 0; k < 4; ++k) d[k] = std::ldexp(d[k], -a.depth[static_cast<std::size_t>(f)]);
-          },
-          deep),
-      each_derivative("channel_derivatives_of_unit_length", "derivatives are scaled to unit length",
-                      [](A, std::int32_t, double* d) {
-                        for (int by = 0; by < 4; by += 2)
-                          if (const double size = std::hypot(d[by], d[by + 1]); size > 0)
-                            d[by] /= size, d[by + 1] /= size;
-                      }),
-      on(Change::On::kQuads,
-         each_derivative(
-             "channel_derivatives_of_polygons", "derivatives of faces that are no quads are twice as large",
-             [](A a, std::int32_t f, double* d) {
-               for (int k = 0; k < 4 && a.is_polygon(static_cast<std::size_t>(f)); ++k) d[k] *= 2;
-             },
-             [](A a) {
-               bool any = false;
-               for (std::size_t f = 0; f < a.mesh.faces.size(); ++f) any = any || a.is_polygon(f);
-               return any && a.deepest > 0;
-             })),
-      derivatives_of("channel_derivatives_without_seams", "derivatives of one value for each vertex",
-                     [](A a, Uv uv) { join_seams(a, uv, [](std::int32_t) { return true; }); }),
-      derivatives_of("channel_derivatives_bilinear", "derivatives of the rule all",
-                     [](A, Uv uv) { uv.rule = ChannelRule::kAll; }),
-      derivatives_of("channel_derivatives_of_none", "derivatives of the rule none",
-                     [](A, Uv uv) { uv.rule = ChannelRule::kNone; }),
-      derivatives(
-          "channel_derivatives_of_next_corner", "derivatives are those of the next corner",
-          [](A, std::vector<double>& all, const Delivered&) {
-            for (std::size_t t = 0; t + 12 <= all.size(); t += 12)
-              std::rotate(&all[t], &all[t + 4], &all[t] + 12);
-          },
-          deep),
-      derivatives("channel_derivatives_by_parameter", "all derivatives by u come first",
-                  [](A, std::vector<double>& all, const Delivered&) {
-                    const std::vector<double> before = all;
-                    for (std::size_t c = 0; 4 * c < all.size(); ++c) {
-                      std::copy_n(&before[4 * c], 2, &all[2 * c]);
-                      std::copy_n(&before[4 * c + 2], 2, &all[all.size() / 2 + 2 * c]);
-                    }
-                  }),
-      derivatives("channel_derivatives_of_chords", "derivatives along the triangle's sides",
-                  [](A a, std::vector<double>& all, const Delivered& out) {
-                    // Of the values at the corners, where the triangle has sides along both parameters.
-                    for (std::size_t t = 0; t < out.triangles.size(); ++t) {
-                      std::array<std::array<double, 2>, 3> at{};
-                      for (std::size_t k = 0; k < 3; ++k) {
-                        const Place p = out.place(out.triangles[t][k]);
-                        at[k] = {double(p.i) / p.denominator, double(p.j) / p.denominator};
-                      }
-                      if (a.is_polygon(static_cast<std::size_t>(out.triangle_face[t]))) continue;
-                      const double ax = at[1][0] - at[0][0], ay = at[1][1] - at[0][1],
-                                   bx = at[2][0] - at[0][0], by = at[2][1] - at[0][1],
-                                   det = ax * by - ay * bx;
-                      const double* v = &out.channel_values[6 * t];
-                      for (std::size_t k = 0; k < 3; ++k)
-                        for (std::size_t c = 0; c < 2; ++c) {
-                          const double p = v[2 + c] - v[c], q = v[4 + c] - v[c];
-                          all[12 * t + 4 * k + c] = (p * by - q * ay) / det;
-                          all[12 * t + 4 * k + 2 + c] = (q * ax - p * bx) / det;
-                        }
-                    }
-                  }),
-      derivatives(
-          "channel_derivatives_nan", "the derivatives at one triangle are NaN",
-          [](A, std::vector<double>& all, const Delivered&) {
-            std::fill(all.end() - 12, all.end(), std::numeric_limits<double>::quiet_NaN());
-          },
-          deep),
-      derivatives(
-          "channel_derivatives_unwritten", "the last derivative is not written",
-          [](A, std::vector<double>& all, const Delivered&) {
-            std::memset(&all.back(), 0xFF, sizeof(double));
-          },
-          {}, "written"),
-      derivatives(
-          "channel_derivatives_missing", "derivatives are promised and not delivered",
-          [](A, std::vector<double>& all, const Delivered&) { all.clear(); }, {}, "written"),
-  };
-}
-
-// Where there are two channels, of two and four components.
 Change channels(const char* name, const char* description, std::function<void(Mesh)> what) {
   Change c = remake(name, description, "channel-positions", [what](A a, Mesh m) {
-    if (a.mesh.channels.size() != 2) nowhere("second channel");
+    if (!has_two(a.mesh)) nowhere("second channel of four components");
     what(m);
   });
   c.on = Change::On::kBoth;
   c.shows = [what](A a) {
     data::ControlMesh other = a.mesh;
-    if (other.channels.size() != 2) return false;
+    if (!has_two(other)) return false;
     for (const Channel& channel : other.channels)
       if (!reference::has_exact_cut(a.mesh, channel, channel.rule.value_or(data::kUsualChannelRule)))
         return false;
@@ -560,8 +378,7 @@ std::vector<Change> by_places() {
 
 std::vector<Change> faults_of_channels() {
   std::vector<Change> all;
-  for (auto& list :
-       {by_rules(), by_indices(), by_values(), by_several(), by_requests(), by_places(), by_derivatives()})
+  for (auto& list : {by_rules(), by_indices(), by_values(), by_several(), by_requests(), by_places()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }

@@ -27,7 +27,7 @@ namespace limitcheck::verify {
 ///   kByCallSite  one of these three, drawn for each place in the program's code: code that was inlined, unrolled or
 ///                peeled is there several times, and each copy may be contracted otherwise
 enum class Contraction { kNone, kLeft, kRight, kByCallSite };
-/// Another one draws otherwise.
+/// The compiler that is modelled by kByCallSite: another number draws otherwise.
 inline std::uint64_t which_compiler = 0;
 
 /// A float that knows of which factors it is the rounded product, until it is stored in memory.

@@ -258,7 +258,8 @@ const std::vector<FaultTable>& fault_tables() {
                                                    faults_of_polygons(), faults_of_tags(),
                                                    faults_of_arithmetic()}),
                                    rare = together({faults_of_rare_tags(), faults_of_rare_places()}),
-                                   channels = faults_of_channels();
+                                   channels =
+                                       together({faults_of_channels(), faults_of_channel_derivatives()});
   static const std::vector<FaultTable> tables{{faults(), "model", "quad-model", ""},
                                               {any, "model", "quad-model", ""},
                                               {rare, "naive", "naive", "loop_"},

@@ -50,10 +50,9 @@ struct FacePattern {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Of a face of Catmull-Clark's: each lattice point once, each quad of the lattice cut along its diagonal
-/// from (0, 0).
-inline FacePattern quads_pattern(int corners, int depth) {
-  const FaceDomain domain(data::Scheme::kCatmullClark, corners);
+/// Each lattice point of a face once; quads of the lattice are cut along the diagonal from (0, 0).
+inline FacePattern lattice_pattern(data::Scheme scheme, int corners, int depth) {
+  const FaceDomain domain(scheme, corners);
   const std::int64_t n = std::int64_t{1} << depth;
   FacePattern pattern;
   pattern.denominator = static_cast<std::uint32_t>(std::max<std::int64_t>(1, domain.denominator(n)));
@@ -88,11 +87,12 @@ class FacePatterns {
       if (depth < 0) continue;
       auto place = patterns_.find({corners, depth});
       if (place == patterns_.end())
-        place =
-            patterns_
-                .try_emplace({corners, depth},
-                             mesh.scheme == LC_SCHEME_LOOP ? triangle(depth) : quads_pattern(corners, depth))
-                .first;
+        place = patterns_
+                    .try_emplace({corners, depth},
+                                 mesh.scheme == LC_SCHEME_LOOP
+                                     ? triangle(depth)
+                                     : lattice_pattern(data::Scheme::kCatmullClark, corners, depth))
+                    .first;
       face.pattern = &place->second;
       vertices_ += std::ssize(face.pattern->points);
       triangles_ += std::ssize(face.pattern->triangles);

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv Far's patches: the mesh refined where it is irregular (RefineAdaptive), a PatchTable made of
-// what results, and the patch under each lattice point evaluated (PatchMap::FindPatch, EvaluateBasis, for channels
-// EvaluateBasisFaceVarying). Beyond the level of isolation irregular faces are covered by end caps, which approximate. Or stencils made of the
-// same patches (LimitStencilTable), which are applied to the control mesh.
-#include <opensubdiv/far/patchMap.h>
-#include <opensubdiv/far/patchTable.h>
-#include <opensubdiv/far/patchTableFactory.h>
+// OpenSubdiv Far's patches: the mesh refined where it is irregular (RefineAdaptive), a PatchTable made of what
+// results, and the patch under each lattice point evaluated (PatchMap::FindPatch, EvaluateBasis, for channels
+// EvaluateBasisFaceVarying). Beyond the level of isolation irregular faces are covered by end caps, which
+// approximate. Or stencils made of the same patches (LimitStencilTable), which are applied to the control mesh.
 #include <opensubdiv/far/primvarRefiner.h>
-#include <opensubdiv/far/ptexIndices.h>
-#include <opensubdiv/far/stencilTableFactory.h>
 
 #include <algorithm>
 #include <array>
-#include <memory>
-#include <string>
 #include <type_traits>
 #include <vector>
 
-#include "verify/peers/opensubdiv_mesh.h"
+#include "verify/peers/opensubdiv_patches.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -34,89 +27,42 @@ using Value = OpenSubdivValue<Real>;
 struct Settings {
   explicit Settings(Options& options)
       : wide(options.choice("precision", {"float", "double"}) == 1),
-        bspline(options.choice("end-cap", {"gregory", "bspline"}) == 1),
-        legacy_corners(options.choice("corners", {"legacy", "smooth"}) == 0),
-        linear_channels(options.choice("channels", {"smooth", "linear"}) == 1),
         stencils(options.choice("evaluate", {"patches", "limit-stencils"}) == 1),
-        infinite_creases(options.choice("inf-sharp", {"off", "on"}) == 1),
-        single_crease(options.choice("single-crease", {"off", "on"}) == 1),
-        level(options.integer("level", 2, 1, 10)) {}
-  bool wide, bspline, legacy_corners, linear_channels, stencils, infinite_creases, single_crease;
-  int level;
-};
-
-// A mesh refined where it is irregular, or its channel is, and the patches of both.
-struct Patched {
-  Patched(const lc_mesh& mesh, OpenSubdiv::Sdc::Options::VtxBoundaryInterpolation boundary, const Settings& s)
-      : refiner(make_refiner(mesh, opensubdiv_scheme(mesh), boundary)) {
-    const OpenSubdivErrors errors;
-    Patches::Options patches(static_cast<unsigned>(s.level));
-    patches.SetEndCapType(s.bspline ? Patches::Options::ENDCAP_BSPLINE_BASIS
-                                    : Patches::Options::ENDCAP_GREGORY_BASIS);
+        patches(patch_options(options)) {
     // By default a boundary vertex of one face gets the patch of a sharp corner, which is another surface.
-    patches.generateLegacySharpCornerPatches = s.legacy_corners;
-    patches.generateFVarTables = mesh.channel_count > 0;
-    patches.generateFVarLegacyLinearPatches = s.linear_channels;
-    patches.useInfSharpPatch = s.infinite_creases;
-    patches.useSingleCreasePatch = s.single_crease;
-    s.wide ? patches.SetPatchPrecision<double>() : patches.SetPatchPrecision<float>();
-    s.wide ? patches.SetFVarPatchPrecision<double>() : patches.SetFVarPatchPrecision<float>();
-    refiner->RefineAdaptive(patches.GetRefineAdaptiveOptions());
-    table.reset(Patches::Create(*refiner, patches));
-    errors.check();
-    if (table == nullptr) throw SubjectError(LC_FAILED, "OpenSubdiv makes no patches of this mesh");
-    map = std::make_unique<Far::PatchMap>(*table);
-    ptex = std::make_unique<Far::PtexIndices>(*refiner);
+    patches.generateLegacySharpCornerPatches = options.choice("corners", {"legacy", "smooth"}) == 0;
+    patches.generateFVarLegacyLinearPatches = options.choice("channels", {"smooth", "linear"}) == 1;
+    patches.useInfSharpPatch = options.choice("inf-sharp", {"off", "on"}) == 1;
+    patches.useSingleCreasePatch = options.choice("single-crease", {"off", "on"}) == 1;
+    wide ? patches.SetPatchPrecision<double>() : patches.SetPatchPrecision<float>();
+    wide ? patches.SetFVarPatchPrecision<double>() : patches.SetFVarPatchPrecision<float>();
   }
-
-  // The points, or values of a channel, of all levels, then those of the end caps.
-  template <class Real>
-  std::vector<Vector<Real>> all(std::vector<Vector<Real>> points) const {
-    const auto refined = static_cast<std::size_t>(refiner->GetNumVerticesTotal());
-    points.resize(refined + static_cast<std::size_t>(table->GetNumLocalPoints()));
-    const Far::PrimvarRefinerReal<Real> primvars(*refiner);
-    Vector<Real>* from = points.data();
-    for (int level = 1; level <= refiner->GetMaxLevel(); ++level) {
-      Vector<Real>* const to = from + refiner->GetLevel(level - 1).GetNumVertices();
-      primvars.Interpolate(level, from, to);
-      from = to;
-    }
-    if (table->GetNumLocalPoints() > 0)
-      table->GetLocalPointStencilTable<Real>()->UpdateValues(points.data(), points.data() + refined);
-    return points;
-  }
-  template <class Real>
-  std::vector<Value<Real>> all(std::vector<Value<Real>> values) const {
-    const auto refined = static_cast<std::size_t>(refiner->GetNumFVarValuesTotal());
-    values.resize(refined + static_cast<std::size_t>(table->GetNumLocalPointsFaceVarying()));
-    const Far::PrimvarRefinerReal<Real> primvars(*refiner);
-    Value<Real>* from = values.data();
-    for (int level = 1; level <= refiner->GetMaxLevel(); ++level) {
-      Value<Real>* const to = from + refiner->GetLevel(level - 1).GetNumFVarValues();
-      primvars.InterpolateFaceVarying(level, from, to);
-      from = to;
-    }
-    if (values.size() > refined)
-      table->GetLocalPointFaceVaryingStencilTable<Real>()->UpdateValues(values.data(),
-                                                                        values.data() + refined);
-    return values;
-  }
-
-  // The parts of a face are its ptex faces.
-  template <class Real>
-  const Far::PatchTable::PatchHandle& patch(std::int32_t face, std::int32_t part, const Real* uv) const {
-    const auto* const found =
-        map->FindPatch(ptex->GetFaceId(face) + part, static_cast<double>(uv[0]), static_cast<double>(uv[1]));
-    if (found == nullptr)
-      throw SubjectError(LC_NOT_SUPPORTED, "Far has no patch on face " + std::to_string(face));
-    return *found;
-  }
-
-  std::unique_ptr<Far::TopologyRefiner> refiner;
-  std::unique_ptr<Far::PatchTable> table;
-  std::unique_ptr<Far::PatchMap> map;
-  std::unique_ptr<Far::PtexIndices> ptex;
+  bool wide, stencils;
+  Patches::Options patches;
 };
+
+// The points, or values of the channel, of all levels, then those of the end caps.
+template <class Real, class Point>
+std::vector<Point> all_points(const OpenSubdivPatches& of, std::vector<Point> points) {
+  constexpr bool kPositions = std::is_same_v<Point, Vector<Real>>;
+  const auto refined = static_cast<std::size_t>(kPositions ? of.refiner->GetNumVerticesTotal()
+                                                           : of.refiner->GetNumFVarValuesTotal());
+  const int caps = kPositions ? of.table->GetNumLocalPoints() : of.table->GetNumLocalPointsFaceVarying();
+  points.resize(refined + static_cast<std::size_t>(caps));
+  const Far::PrimvarRefinerReal<Real> primvars(*of.refiner);
+  Point* from = points.data();
+  for (int level = 1; level <= of.refiner->GetMaxLevel(); ++level) {
+    const Far::TopologyLevel& before = of.refiner->GetLevel(level - 1);
+    Point* const to = from + (kPositions ? before.GetNumVertices() : before.GetNumFVarValues());
+    kPositions ? primvars.Interpolate(level, from, to) : primvars.InterpolateFaceVarying(level, from, to);
+    from = to;
+  }
+  if (caps > 0)
+    (kPositions ? of.table->GetLocalPointStencilTable<Real>()
+                : of.table->GetLocalPointFaceVaryingStencilTable<Real>())
+        ->UpdateValues(points.data(), points.data() + refined);
+  return points;
+}
 
 template <class Real>
 void copy(const Value<Real>& value, const lc_channel& channel, Real* to) {
@@ -127,13 +73,14 @@ void copy(const Value<Real>& value, const lc_channel& channel, Real* to) {
 template <class Real>
 class FacePatches {
  public:
-  FacePatches(const lc_mesh& mesh, const Patched& surface, const std::vector<Patched>& channels)
+  FacePatches(const lc_mesh& mesh, const OpenSubdivPatches& surface,
+              const std::vector<OpenSubdivPatches>& channels)
       : mesh_(mesh),
         surface_(surface),
         channels_(channels),
-        points_(surface.all<Real>(opensubdiv_points<Real>(mesh))) {
+        points_(all_points<Real>(surface, opensubdiv_points<Real>(mesh))) {
     for (std::size_t c = 0; c < channels.size(); ++c)
-      values_.push_back(channels[c].all<Real>(opensubdiv_values<Real>(mesh.channels[c])));
+      values_.push_back(all_points<Real>(channels[c], opensubdiv_values<Real>(mesh.channels[c])));
   }
 
   class Reader {
@@ -141,7 +88,7 @@ class FacePatches {
     explicit Reader(const FacePatches& patches) : patches_(patches) {}
     void begin(std::int32_t face) { face_ = face; }
     void evaluate(std::int32_t part, const Real* uv, Real* position, Real* du, Real* dv) const {
-      const Patched& surface = patches_.surface_;
+      const OpenSubdivPatches& surface = patches_.surface_;
       const auto& patch = surface.patch(face_, part, uv);
       Weights w{}, wu{}, wv{};
       surface.table->EvaluateBasis(patch, uv[0], uv[1], w.data(), wu.data(), wv.data());
@@ -158,7 +105,7 @@ class FacePatches {
         position[c] = sums[0].x[c], du[c] = sums[1].x[c], dv[c] = sums[2].x[c];
     }
     void channel(std::size_t number, std::int32_t part, const Real* uv, Real* to) const {
-      const Patched& channel = patches_.channels_[number];
+      const OpenSubdivPatches& channel = patches_.channels_[number];
       const auto& patch = channel.patch(face_, part, uv);
       Weights w{};
       channel.table->EvaluateBasisFaceVarying(patch, uv[0], uv[1], w.data());
@@ -178,8 +125,8 @@ class FacePatches {
 
  private:
   const lc_mesh& mesh_;
-  const Patched& surface_;
-  const std::vector<Patched>& channels_;
+  const OpenSubdivPatches& surface_;
+  const std::vector<OpenSubdivPatches>& channels_;
   const std::vector<Vector<Real>> points_;
   std::vector<std::vector<Value<Real>>> values_;
 };
@@ -188,37 +135,20 @@ class FacePatches {
 template <class Real>
 class StencilPoints {
  public:
-  StencilPoints(const lc_mesh& mesh, const Patched& surface, const std::vector<Patched>& channels,
-                const FacePatterns& patterns)
+  StencilPoints(const lc_mesh& mesh, const OpenSubdivPatches& surface,
+                const std::vector<OpenSubdivPatches>& channels, const FacePatterns& patterns)
       : mesh_(mesh), patterns_(patterns) {
-    // One location for each point: the table orders its stencils as it is given them, ptex face by ptex face.
     const auto count = static_cast<std::size_t>(patterns.vertices());
-    std::vector<Real> s(count), t(count);
-    typename Factory::LocationArrayVec locations;
-    std::size_t at = 0;
-    for (std::int64_t f = 0; f < patterns.faces(); ++f) {
-      const FacePattern* const pattern = patterns.of(f).pattern;
-      if (pattern == nullptr) continue;
-      for (const FaceDomain::Point& p : pattern->points) {
-        s[at] = static_cast<Real>(p.i) / static_cast<Real>(pattern->denominator);
-        t[at] = static_cast<Real>(p.j) / static_cast<Real>(pattern->denominator);
-        auto& location = locations.emplace_back();
-        location.ptexIdx = surface.ptex->GetFaceId(static_cast<int>(f)) + p.part;
-        location.numLocations = 1;
-        location.s = &s[at];
-        location.t = &t[at++];
-      }
-    }
     position_.resize(count), du_.resize(count), dv_.resize(count);
     const auto control = opensubdiv_points<Real>(mesh);
-    const auto stencils = table(surface, locations, {});
+    const auto stencils = surface.limit_stencils<Real>(patterns);
     stencils->UpdateValues(control.data(), position_.data());
     stencils->UpdateDerivs(control.data(), du_.data(), dv_.data());
-    typename Factory::Options options;
-    options.interpolationMode = Factory::INTERPOLATE_FACE_VARYING;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const auto values = opensubdiv_values<Real>(mesh.channels[c]);
-      table(channels[c], locations, options)->UpdateValues(values.data(), values_.emplace_back(count).data());
+      channels[c]
+          .limit_stencils<Real>(patterns, /*of_channel=*/true)
+          ->UpdateValues(values.data(), values_.emplace_back(count).data());
     }
   }
 
@@ -247,20 +177,6 @@ class StencilPoints {
   };
 
  private:
-  using Factory = Far::LimitStencilTableFactoryReal<Real>;
-  static std::unique_ptr<const Far::LimitStencilTableReal<Real>> table(
-      const Patched& patched, const typename Factory::LocationArrayVec& locations,
-      typename Factory::Options options) {
-    const OpenSubdivErrors errors;
-    std::unique_ptr<const Far::LimitStencilTableReal<Real>> stencils(
-        Factory::Create(*patched.refiner, locations, nullptr, patched.table.get(), options));
-    errors.check();
-    // It leaves out, without a word, locations that no patch covers.
-    if (stencils == nullptr || stencils->GetNumStencils() != static_cast<int>(locations.size()))
-      throw SubjectError(LC_NOT_SUPPORTED, "Far makes no limit stencil of some points of this mesh");
-    return stencils;
-  }
-
   const lc_mesh& mesh_;
   const FacePatterns& patterns_;
   std::vector<Vector<Real>> position_, du_, dv_;
@@ -282,9 +198,9 @@ class FarPatchesSubject {
   FarPatchesSubject(const lc_mesh& mesh, Options& options)
       : mesh_(mesh),
         settings_(options),
-        surface_(with_channel(mesh, kNoChannel), boundary_rule(mesh, options), settings_) {
+        surface_(with_channel(mesh, kNoChannel), boundary_rule(mesh, options), settings_.patches) {
     for (std::int64_t c = 0; c < mesh.channel_count; ++c)
-      channels_.emplace_back(with_channel(mesh, c), boundary_rule(mesh, options), settings_);
+      channels_.emplace_back(with_channel(mesh, c), boundary_rule(mesh, options), settings_.patches);
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
@@ -305,8 +221,8 @@ class FarPatchesSubject {
 
   const lc_mesh mesh_;
   const Settings settings_;
-  const Patched surface_;
-  std::vector<Patched> channels_;
+  const OpenSubdivPatches surface_;
+  std::vector<OpenSubdivPatches> channels_;
 };
 
 }  // namespace

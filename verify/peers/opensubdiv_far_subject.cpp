@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level, or a StencilTable), then
-// limit positions and tangents (PrimvarRefiner::Limit); channels by InterpolateFaceVarying and LimitFaceVarying.
-// Delivered as the library delivers it; the normal is its first tangent x its second, one for each vertex, on a sharp
-// edge, too. Catmull-Clark's quads are cut along a diagonal. Limit() takes the faces around a vertex for quads without a look: on a mesh of other faces its
-// values at depth 0 mean nothing.
+// OpenSubdiv Far: the whole mesh refined uniformly (PrimvarRefiner::Interpolate level by level, or a StencilTable),
+// then limit positions and tangents (PrimvarRefiner::Limit); channels by InterpolateFaceVarying and
+// LimitFaceVarying. Delivered as the library delivers it; the normal is its first tangent x its second, one for
+// each vertex, on a sharp edge, too. Catmull-Clark's quads are cut along a diagonal. Limit() takes the faces around
+// a vertex for quads without a look: on a mesh of other faces its values at depth 0 mean nothing.
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/stencilTable.h>
 #include <opensubdiv/far/stencilTableFactory.h>
@@ -68,7 +68,7 @@ class FarSubject {
     refiner_->Unrefine();
     refine(*refiner_, depth);
     errors.check();
-    wide_ ? run<double>(request, depth, out) : run<float>(request, depth, out);
+    wide_ ? run<double>(errors, request, depth, out) : run<float>(errors, request, depth, out);
     if (!bare_) errors.check();  // with `bare`, what Limit() says is told as what it delivers: nothing
     refiner_->Unrefine();        // half a gigabyte at 4000 faces, depth 5
   }
@@ -86,7 +86,7 @@ class FarSubject {
   }
 
   template <class Real>
-  void run(const lc_request& request, int depth, lc_tessellation& out) const {
+  void run(const OpenSubdivErrors& errors, const lc_request& request, int depth, lc_tessellation& out) const {
     const Far::PrimvarRefinerReal<Real> primvars(*refiner_);
     const auto points = refined<Real>(*refiner_, opensubdiv_points<Real>(mesh_), depth);
     const Far::TopologyLevel& last = refiner_->GetLevel(depth);
@@ -113,7 +113,9 @@ class FarSubject {
     std::vector<Fan> fans;
     for (std::int32_t face = 0; face < mesh_.face_count; ++face)
       descend(face, 0, depth, {face, 0, 1, quads ? square : triangle}, output, fans);
-    if (mesh_.channel_count > 0) put_channels<Real>(request, depth, fans, out);
+    if (mesh_.channel_count == 0) return;
+    if (!bare_) errors.check();  // the refiners of channels listen themselves
+    put_channels<Real>(request, depth, fans, out);
   }
 
   // A triangle of a refined face: its corners 0, k and k + 1.
@@ -121,8 +123,8 @@ class FarSubject {
     int face, k;
   };
 
-  // Points, or values of the refiner's channel, of the last level: level by level, or by stencils that skip the levels
-  // between.
+  // Points, or values of the refiner's channel, of the last level: level by level, or by stencils that skip the
+  // levels between.
   template <class Real, class Point>
   std::vector<Point> refined(const Far::TopologyRefiner& refiner, std::vector<Point> points,
                              int depth) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv's evaluators for OpenGL: limit stencils, or patches, as compute shaders or by transform feedback. All is made as
-// for opensubdiv-far-patches, and the last step done on the device.
+// OpenSubdiv's evaluators for OpenGL: limit stencils, or patches, as compute shaders or by transform feedback. All is
+// made as for opensubdiv-far-patches, and the last step done on the device.
 #include <epoxy/gl.h>
 
 #include <opensubdiv/osd/bufferDescriptor.h>
@@ -9,6 +9,9 @@
 #include <opensubdiv/osd/glXFBEvaluator.h>
 #include <opensubdiv/osd/types.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -25,18 +28,13 @@ namespace {
 using namespace limitcheck::verify;
 namespace Far = OpenSubdiv::Far;
 namespace Osd = OpenSubdiv::Osd;
-using Patches = Far::PatchTableFactory;
 
 // What OpenSubdiv's evaluators take for a buffer of vertices.
 class VertexBuffer : public GuardedBuffer {
  public:
-  using GuardedBuffer::GuardedBuffer;
   explicit VertexBuffer(std::int64_t vertices, std::size_t size = 12)
       : GuardedBuffer(static_cast<std::size_t>(vertices) * size) {}
   GLuint BindVBO() const { return name(); }
-  void write(const void* bytes, std::size_t count) const {
-    glNamedBufferSubData(name(), 0, static_cast<GLsizeiptr>(count), bytes);
-  }
 };
 
 // The points of one face after another as the device left them, and what it wrote behind.
@@ -88,10 +86,7 @@ class OpenSubdivGlSubject {
   }
 
   OpenSubdivGlSubject(const lc_mesh& mesh, Options& options)
-      : mesh_(mesh),
-        settings_(options),
-        patches_(make_refiner(mesh, opensubdiv_scheme(mesh), boundary_rule(mesh, options)),
-                 settings_.of_patches()) {}
+      : mesh_(mesh), settings_(options), patches_(mesh, boundary_rule(mesh, options), settings_.patches) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const CurrentGl gl;
@@ -112,17 +107,9 @@ class OpenSubdivGlSubject {
     explicit Settings(Options& options)
         : by_patches(options.choice("path", {"stencils", "patches"}) == 1),
           feedback(options.choice("evaluator", {"compute", "xfb"}) == 1),
-          bspline(options.choice("end-cap", {"gregory", "bspline"}) == 1),
-          level(options.integer("level", 2, 1, 10)) {}
-    Patches::Options of_patches() const {
-      Patches::Options patches(static_cast<unsigned>(level));
-      patches.SetEndCapType(bspline ? Patches::Options::ENDCAP_BSPLINE_BASIS
-                                    : Patches::Options::ENDCAP_GREGORY_BASIS);
-      patches.generateLegacySharpCornerPatches = true;
-      return patches;
-    }
-    bool by_patches, feedback, bspline;
-    int level;
+          patches(patch_options(options)) {}
+    bool by_patches, feedback;
+    Far::PatchTableFactory::Options patches;
   };
 
   template <class Evaluator, class StencilTable>
@@ -169,10 +156,8 @@ class OpenSubdivGlSubject {
       if (const FacePattern* const pattern = patterns.of(f).pattern; pattern != nullptr)
         for (const FaceDomain::Point& p : pattern->points) {
           const auto denominator = static_cast<float>(pattern->denominator);
-          const float u = static_cast<float>(p.i) / denominator, v = static_cast<float>(p.j) / denominator;
-          places.emplace_back(patches_.patch(static_cast<std::int32_t>(f), p.part, static_cast<double>(u),
-                                             static_cast<double>(v)),
-                              u, v);
+          const float uv[2] = {static_cast<float>(p.i) / denominator, static_cast<float>(p.j) / denominator};
+          places.emplace_back(patches_.patch(static_cast<std::int32_t>(f), p.part, uv), uv[0], uv[1]);
         }
     const VertexBuffer coordinates(patterns.vertices(), sizeof(Osd::PatchCoord));
     coordinates.write(places.data(), places.size() * sizeof places[0]);
@@ -182,7 +167,7 @@ class OpenSubdivGlSubject {
                                                      &coordinates, table.get(), evaluator.get()));
   }
 
-  const lc_mesh& mesh_;
+  const lc_mesh mesh_;
   const Settings settings_;
   const OpenSubdivPatches patches_;
 };
@@ -193,9 +178,7 @@ extern "C" const lc_subject* lc_subject_opensubdiv_gl() {
   static const lc_subject subject = make_subject<OpenSubdivGlSubject>(
       "opensubdiv-gl", "OpenSubdiv 3.5 on OpenGL: limit stencils or patches, evaluated by shaders",
       "path=stencils|patches (default stencils), evaluator=compute|xfb: compute shaders or transform "
-      "feedback "
-      "(default compute), level=N of isolation (1 to 10, default 2), end-cap=gregory|bspline (default "
-      "gregory), "
-      "boundary=edge|none (default edge; none is the library's: closed meshes only)");
+      "feedback (default compute), level=N of isolation (1 to 10, default 2), end-cap=gregory|bspline "
+      "(default gregory), boundary=edge|none (default edge; none is the library's: closed meshes only)");
   return lack_of_gl().empty() ? &subject : nullptr;
 }

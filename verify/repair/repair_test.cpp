@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <tuple>
@@ -51,6 +52,27 @@ TEST(Repair, LeavesAValidMeshAsItIs) {
   EXPECT_TRUE(r.changes.empty());
   EXPECT_EQ(faces_of(r.soup), kTetrahedron);
   EXPECT_EQ(r.soup.positions, mesh.positions);
+}
+
+TEST(Repair, KeepsChannelsWhereAllFacesStay) {
+  PolygonSoup mesh = soup(4, kTetrahedron);
+  mesh.channels.push_back({.name = "uv", .components = 1, .values = {1, 2, 3}});
+  for (std::int64_t k = 0; k < 12; ++k) mesh.channels[0].corners.push_back(k % 3);
+  const auto kept = [](const Repaired& r) {
+    return r.soup.channels.empty() ? std::vector<std::int64_t>{} : r.soup.channels[0].corners;
+  };
+  EXPECT_EQ(kept(repair(mesh)), mesh.channels[0].corners);
+  PolygonSoup with_unused = mesh;  // other vertices have other numbers then
+  with_unused.positions.insert(with_unused.positions.begin(), {9, 9, 9});
+  for (std::int64_t& v : with_unused.corners) ++v;
+  EXPECT_EQ(kept(repair(with_unused)), mesh.channels[0].corners);
+  PolygonSoup turned = mesh;
+  std::swap(turned.corners[1], turned.corners[2]);
+  const Repaired r = repair(turned);
+  EXPECT_TRUE(r.soup.channels.empty());
+  EXPECT_EQ(std::count(r.changes.begin(), r.changes.end(),
+                       "dropped 1 channel of faces that are not those of before"),
+            1);
 }
 
 using Tag = std::tuple<std::int64_t, std::int64_t, double>;

@@ -20,7 +20,6 @@
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"
-#include "verify/subject/devices.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -299,7 +298,7 @@ std::string to_json(const Report& report, const std::string& level, bool all_row
               {"changes", changes(report)},
               {"never_judged", Ordered::array()}};
   for (const Receipt& r : report.receipts) out["receipts"].push_back(shown(r));
-  for (const auto& [subject, device] : Devices::noted()) out["devices"][subject] = device;
+  for (const auto& [subject, device] : report.devices) out["devices"][subject] = device;
   for (const Unjudged& none : unjudged(report))
     out["never_judged"].push_back(
         {{"subject", none.subject}, {"check", none.check}, {"reason", shown(none.reason)}});

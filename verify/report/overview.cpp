@@ -12,7 +12,6 @@
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
 #include "verify/row/rows.h"
-#include "verify/subject/devices.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -116,7 +115,7 @@ std::string header(const Report& report) {
       faces);
   if (!report.containment.empty())
     out += fmt::format("subjects in processes of their own: {}\n", report.containment);
-  for (const auto& [subject, device] : Devices::noted()) out += fmt::format("{} on {}\n", subject, device);
+  for (const auto& [subject, device] : report.devices) out += fmt::format("{} on {}\n", subject, device);
   if (report.left_out.empty()) return out;
   std::vector<std::string_view> kept;
   for (const CheckGroup& g : check_groups(report))

@@ -7,12 +7,12 @@
 #include <span>
 #include <utility>
 
+#include "data/sharpness.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::verify {
 
 HalfEdges::HalfEdges(const lc_mesh& mesh) {
-  constexpr float kForEver = 10;
   const std::int64_t vertices = mesh.vertex_count, corners = mesh.corner_count;
   if (vertices > (1 << 24) || corners > (1 << 26))
     throw SubjectError(LC_NOT_SUPPORTED, "more vertices or corners than a shader is given");
@@ -42,16 +42,15 @@ HalfEdges::HalfEdges(const lc_mesh& mesh) {
   }
   first.push_back(h);
   for (std::size_t k = 0; k < sharp.size(); ++k)
-    if (twin[k] < 0) sharp[k] = kForEver;
+    if (twin[k] < 0) sharp[k] = data::kInfiniteSharpness;
   for (const lc_sharp_edge& e : std::span(mesh.sharp_edges, static_cast<std::size_t>(mesh.sharp_edge_count)))
     if (const auto found = half_edge_of.find(std::minmax(e.a, e.b)); found != half_edge_of.end())
-      for (const std::int32_t side : {found->second, twin[static_cast<std::size_t>(found->second)]})
-        if (side >= 0 && twin[static_cast<std::size_t>(side)] >= 0)
-          sharp[static_cast<std::size_t>(side)] = e.sharpness;
+      if (const std::int32_t other = twin[static_cast<std::size_t>(found->second)]; other >= 0)
+        sharp[static_cast<std::size_t>(found->second)] = sharp[static_cast<std::size_t>(other)] = e.sharpness;
   if (mesh.corners_held != 0)
     for (std::size_t k = 0; k < twin.size(); ++k)
       if (const auto v = static_cast<std::size_t>(mesh.corners[k]); twin[k] < 0 && faces_at[v] == 1)
-        sharp_vertex[v] = kForEver;
+        sharp_vertex[v] = data::kInfiniteSharpness;
   for (const lc_sharp_vertex& v :
        std::span(mesh.sharp_vertices, static_cast<std::size_t>(mesh.sharp_vertex_count)))
     sharp_vertex[static_cast<std::size_t>(v.vertex)] =

@@ -10,9 +10,9 @@
 
 namespace limitcheck::verify {
 
-/// Half-edge h begins at corner h of the mesh: 3 V coordinates, and of each half-edge its vertex, twin (-1 at the
-/// boundary), edge, face and sharpness (10 at the boundary); then the first half-edge of each face and C; then the sharpness
-/// of each vertex. Coordinates and sharpness are the bits of floats. The mesh is an oriented manifold.
+/// 3 V coordinates. Of each half-edge (h begins at corner h): vertex, twin (-1 at the boundary), edge, face, sharpness
+/// (10 at the boundary). The first half-edge of each face, and C. The sharpness of each vertex. Coordinates and
+/// sharpness are bits of floats. The mesh is an oriented manifold.
 struct HalfEdges {
   std::vector<std::int32_t> words;
   std::array<std::int64_t, 4> counts{};  // V F C E

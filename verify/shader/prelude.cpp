@@ -48,13 +48,13 @@ void lc_put_vector(int k, vec3 x) {
   lc_output[6 + 3 * k] = floatBitsToInt(x.z);
 }
 void lc_put_vertex(int k, vec3 position, vec3 normal) {
-  if (k < 0) atomicMin(lc_output[1], k - 1);
+  if (k < 0) atomicMin(lc_output[1], max(k, -2147483647) - 1);
   else if (k >= lc_vertices) atomicMax(lc_output[0], k);
   else { lc_put_vector(k, position); lc_put_vector(lc_vertices + k, normal); }
 }
 void lc_put_vertex(int k, vec3 position) { lc_put_vertex(k, position, vec3(0)); }
 void lc_put_triangle(int k, int a, int b, int c) {
-  if (k < 0) atomicMin(lc_output[3], k - 1);
+  if (k < 0) atomicMin(lc_output[3], max(k, -2147483647) - 1);
   else if (k >= lc_triangles) atomicMax(lc_output[2], k);
   else {
     int at = 4 + 6 * lc_vertices + 3 * k;

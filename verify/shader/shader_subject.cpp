@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <new>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "verify/gl/context.h"
@@ -38,33 +38,22 @@ const Programs& programs(lc_scheme scheme) {
                              : made.emplace(scheme, compiled(*the_source, scheme)).first->second;
 }
 
-// Of so many vectors of numbers, or of as many as a guard zone can show.
+// Of so many vectors of three numbers.
 std::size_t bytes_of(std::int64_t elements) {
-  return 12 * static_cast<std::size_t>(std::min(elements, std::int64_t{1024}));
-}
-
-FacePattern triangle_pattern(int depth) {
-  const FaceDomain domain = FaceDomain::triangle();
-  const std::int64_t n = std::int64_t{1} << depth;
-  FacePattern pattern{static_cast<std::uint32_t>(n), {}, {}};
-  pattern.points.resize(static_cast<std::size_t>(domain.point_count(n)));
-  const auto number = [&](FaceDomain::Point p) { return static_cast<std::uint32_t>(domain.number(p, n)); };
-  domain.for_each_point(n, [&](FaceDomain::Point p) { pattern.points[number(p)] = p; });
-  domain.for_each_triangle(n, 1, [&](FaceDomain::Point a, FaceDomain::Point b, FaceDomain::Point c) {
-    pattern.triangles.push_back({number(a), number(b), number(c)});
-  });
-  return pattern;
+  return 12 * static_cast<std::size_t>(elements);
 }
 
 class ShaderSubject {
  public:
   static lc_capabilities capabilities(Options&, lc_scheme scheme) {
     const ShaderSource& s = *the_source;
-    if ((s.schemes & (scheme == LC_SCHEME_LOOP ? LC_DOES_LOOP : LC_DOES_CATMULL_CLARK)) != 0) {
-      const CurrentGl gl;
-      (void)programs(scheme);
-      Devices::note(s.file, gl_device());
-    }
+    // Whichever scheme is asked about: what does not compile is bad input.
+    const lc_scheme its = s.schemes == LC_DOES_LOOP            ? LC_SCHEME_LOOP
+                          : s.schemes == LC_DOES_CATMULL_CLARK ? LC_SCHEME_CATMULL_CLARK
+                                                               : scheme;
+    const CurrentGl gl;
+    (void)programs(its);
+    Devices::note(s.file, gl_device());
     lc_capabilities c{LC_FLOAT32, s.weights, s.boundary, s.points, s.max_depth, s.normals, 0, !s.approximate};
     c.schemes = s.schemes;
     c.sharp = s.sharp;
@@ -134,17 +123,19 @@ class ShaderSubject {
     if (output.normals != nullptr) std::memcpy(output.normals, from + bytes, bytes);
     if (indices) std::memcpy(output.triangles, from + 2 * bytes, 12 * static_cast<std::size_t>(triangles));
     if (beyond[0] >= 0)
-      show_written_behind(output.positions + 3 * vertices, bytes_of(beyond[0] + 1 - vertices));
-    if (beyond[1] < -1) show_written_before(output.positions, bytes_of(-1 - beyond[1]));
+      show_written_behind(output.positions + 3 * vertices, bytes_of(std::int64_t{1} + beyond[0] - vertices));
+    if (beyond[1] < -1) show_written_before(output.positions, bytes_of(std::int64_t{-1} - beyond[1]));
     if (beyond[2] >= 0)
-      show_written_behind(output.triangles + 3 * triangles, bytes_of(beyond[2] + 1 - triangles));
-    if (beyond[3] < -1) show_written_before(output.triangles, bytes_of(-1 - beyond[3]));
+      show_written_behind(output.triangles + 3 * triangles,
+                          bytes_of(std::int64_t{1} + beyond[2] - triangles));
+    if (beyond[3] < -1) show_written_before(output.triangles, bytes_of(std::int64_t{-1} - beyond[3]));
     if (content.size() > buffer.size())
       show_written_behind(output.triangles + 3 * triangles, content.size() - buffer.size());
   }
 
   void run_function(const lc_request& request, lc_tessellation& out) {
-    const FacePatterns patterns(mesh_, request, triangle_pattern);
+    const FacePatterns patterns(mesh_, request,
+                                [](int depth) { return lattice_pattern(data::Scheme::kLoop, 3, depth); });
     const auto output =
         allocate_output<float>(request, out, patterns.vertices(), patterns.triangles(), the_source->normals,
                                /*corners=*/mesh_.scheme == LC_SCHEME_CATMULL_CLARK);
@@ -170,7 +161,7 @@ class ShaderSubject {
         output.triangle_face[triangle++] = face;
       }
     }
-    const InputBuffer input(words);
+    const GuardedBuffer input(words);
     const GuardedBuffer buffer = output_buffer(patterns.vertices(), 0);
     input.bind(0), buffer.bind(1);
     const GlProgram& program = *programs(mesh_.scheme).front();
@@ -183,7 +174,7 @@ class ShaderSubject {
     const std::int64_t vertices = number(the_source->output[0]), triangles = number(the_source->output[1]);
     const auto output = allocate_output<float>(request, out, vertices, triangles, the_source->normals);
     out.provenance = nullptr, out.triangle_face = nullptr;
-    const InputBuffer input(half_edges_.words);
+    const GuardedBuffer input(half_edges_.words);
     const GuardedBuffer buffer = output_buffer(vertices, triangles);
     input.bind(0), buffer.bind(1);
     std::vector<GuardedBuffer> own;
@@ -243,7 +234,7 @@ class ShaderSubject {
         words.insert(words.end(),
                      {static_cast<std::int32_t>(f), corner, (1 << counts_.depth) >> (cut ? 1 : 0)});
     }
-    const InputBuffer input(words);
+    const GuardedBuffer input(words);
     input.bind(0);
     const GlProgram& program = *programs(mesh_.scheme).front();
     begin(program, 0, 0, 0);
@@ -270,8 +261,8 @@ class ShaderSubject {
   static lc_provenance place(std::int32_t face, float u, float v, std::int32_t steps) {
     const auto over = [&](std::int64_t denominator) {
       const auto whole = [&](float x) {
-        return static_cast<std::uint32_t>(
-            std::clamp(std::nearbyint(static_cast<double>(x) * static_cast<double>(denominator)), 0.0, 4e9));
+        return static_cast<std::uint32_t>(std::fmax(
+            0.0, std::fmin(std::nearbyint(static_cast<double>(x) * static_cast<double>(denominator)), 4e9)));
       };
       return lc_provenance{face, whole(u), whole(v), static_cast<std::uint32_t>(denominator)};
     };

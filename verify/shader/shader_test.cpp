@@ -2,11 +2,16 @@
 // The shader door as a user meets it: the templates are right, each planted fault is seen, and no audit ends with it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "verify/cli/command_test.h"
+#include "verify/shader/half_edges.h"
 #include "verify/shader/source.h"
 #include "verify/subject/subject_error.h"
 
@@ -41,12 +46,13 @@ class ShaderDoor : public CommandTest {
   }
 };
 
-// All vertices of quad-torus have four faces: its patches are bicubic B-splines. Positions and normals are judged, and bits
-// of shared points; that turned faces give other bits is a warning.
+// All vertices of quad-torus have four faces: its patches are bicubic B-splines. Shared points keep their bits with
+// turned corners, too.
 TEST_F(ShaderDoor, TheTemplatesOfAFunctionAndOfATessellationShaderHoldOnARegularTorus) {
   for (const std::string file : {"function.glsl", "tessellation.glsl"}) {
     const json report = audited((kTemplates / file).string() + " quad-torus --depth 3", 0);
-    for (const char* check : {"positions", "normals", "shared-positions", "coverage", "written", "finite"})
+    for (const char* check :
+         {"positions", "normals", "shared-positions", "corner-rotation", "coverage", "written", "finite"})
       EXPECT_EQ(status(report, check), "held") << file << " " << check;
     EXPECT_GT(row(report, "positions")["of"], 1000) << file;
     EXPECT_EQ(report["devices"].size(), 1U);
@@ -72,11 +78,11 @@ TEST_F(ShaderDoor, AWrongWeightIsAFindingWithItsWitness) {
 }
 
 TEST_F(ShaderDoor, WhatItWritesBehindABufferIsAFinding) {
-  // The pass that splits half-edges runs on 64 at a time, of 36 faces of four corners: 48 too many.
-  plant("passes.glsl", "if (k >= lc_items) return;", "");
-  const json report = audited("wrong.glsl quad-torus:6:6 quad-cube --depth 2 --level quick", 1);
-  EXPECT_EQ(status(report, "written", "quad-cube"), "finding");
-  EXPECT_TRUE(says(row(report, "written", "quad-cube")["message"], "behind"));
+  // Room for one level of half-edges: the second, 16 of 12 bytes each, lies behind it.
+  plant("passes.glsl", "buffer 3 24*C(d)", "buffer 3 12*C(d)");
+  const json report = audited("wrong.glsl quad-fan:1 --depth 1 --level quick", 1);
+  const std::string message = row(report, "written", "quad-fan:1")["message"];
+  EXPECT_TRUE(says(message, "written 192 bytes behind")) << message;
 }
 
 TEST_F(ShaderDoor, AVertexThatIsNoneIsAFinding) {
@@ -91,9 +97,9 @@ TEST_F(ShaderDoor, WhatDoesNotCompileIsNamedWithTheLineOfTheFile) {
   std::istringstream lines(read("wrong.glsl"));
   int number = 1;
   for (std::string line; std::getline(lines, line) && !line.ends_with(" rows;");) ++number;
-  const Outcome o = run("audit --shader wrong.glsl quad-torus --depth 1 --level quick", 1);
-  EXPECT_TRUE(says(o.out, "does not compile: wrong.glsl:" + std::to_string(number) + ":")) << o.out;
-  EXPECT_TRUE(says(o.out, "rows")) << o.out;
+  const Outcome o = run("audit --shader wrong.glsl quad-torus --depth 1 --level quick", 2);
+  EXPECT_TRUE(says(o.err, "does not compile: wrong.glsl:" + std::to_string(number) + ":")) << o.err;
+  EXPECT_TRUE(says(o.err, "rows")) << o.err;
 }
 
 // A driver may end the loop, as llvmpipe does after some turns: then the points are wrong; or the time is over.
@@ -134,6 +140,29 @@ TEST_F(ShaderDoor, PragmasThatMeanNothingAreRefusedWithTheirLine) {
 
 namespace limitcheck::verify {
 namespace {
+
+// Two triangles of a square with a semi-sharp diagonal, corners held.
+TEST(HalfEdges, HaveTwinsEdgesAndSharpnessOfTwoTriangles) {
+  const double positions[12]{};
+  const std::int32_t corners[]{0, 1, 2, 0, 2, 3}, sizes[]{3, 3};
+  const lc_sharp_edge diagonal{0, 2, 2.5F};
+  lc_mesh mesh{};
+  mesh.vertex_count = 4, mesh.face_count = 2, mesh.corner_count = 6;
+  mesh.positions = positions, mesh.corners = corners, mesh.face_sizes = sizes;
+  mesh.sharp_edges = &diagonal, mesh.sharp_edge_count = 1, mesh.corners_held = 1;
+  const HalfEdges half_edges(mesh);
+  const auto f = [](float x) { return std::bit_cast<std::int32_t>(x); };
+  const std::vector<std::int32_t> behind_positions_and_vertices{
+      -1,    -1,    3,      2,      -1,    -1,     // twin
+      0,     1,     2,      2,      3,     4,      // edge
+      0,     0,     0,      1,      1,     1,      // face
+      f(10), f(10), f(2.5), f(2.5), f(10), f(10),  // sharpness
+      0,     3,     6,                             // first half-edges
+      0,     f(10), 0,      f(10)};                // sharpness of vertices
+  ASSERT_EQ(half_edges.words.size(), 18 + behind_positions_and_vertices.size());
+  EXPECT_TRUE(std::equal(behind_positions_and_vertices.begin(), behind_positions_and_vertices.end(),
+                         half_edges.words.begin() + 18));
+}
 
 // A cube has 8 vertices and 6 quads, an octahedron 6 and 8 triangles. Steps keep V - E + F = 2, each quad becomes four, and so
 // does each triangle; each edge of a closed mesh belongs to two faces.

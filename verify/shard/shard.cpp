@@ -93,6 +93,7 @@ std::string to_json(const PartReport& part) {
                {"containment", part.containment},
                {"printed", part.printed},
                {"incomplete", part.incomplete},
+               {"devices", part.devices},
                {"receipts", part.receipts},
                {"results", std::move(results)}});
   return sealed(json);
@@ -111,6 +112,7 @@ PartReport read_part(const std::string& text) try {
   part.plan.shard = parse_shard(json.at("shard").get<std::string>());
   json.at("seconds").get_to(part.seconds), json.at("containment").get_to(part.containment);
   json.at("printed").get_to(part.printed), json.at("incomplete").get_to(part.incomplete);
+  if (json.contains("devices")) json.at("devices").get_to(part.devices);
   if (json.contains("receipts")) part.receipts = std::move(json.at("receipts"));
   if (!part.receipts.is_array() || part.plan.together == 0)
     throw data::ArgumentError("this is no part that --shard has made");
@@ -147,6 +149,7 @@ PartReport joined(const std::vector<PartReport>& parts) {
     whole.seconds += p.seconds;
     whole.printed += p.printed;
     whole.receipts.insert(whole.receipts.end(), p.receipts.begin(), p.receipts.end());
+    whole.devices.insert(p.devices.begin(), p.devices.end());
     if (whole.containment.empty()) whole.containment = p.containment;
   }
   return whole;

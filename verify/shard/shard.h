@@ -102,6 +102,7 @@ struct PartReport {
   double seconds = 0;
   std::string containment, printed;  // as in Report (verify/row/result.h)
   std::string incomplete;            // why not all of the shard is done; empty: all is
+  std::map<std::string, std::string> devices;  // as in Report
   // What subjects took: an array, and of the whole those of all parts (receipts_of in verify/report/json.h).
   nlohmann::json receipts = nlohmann::json::array();
 
@@ -109,7 +110,7 @@ struct PartReport {
   bool is_complete() const;
 };
 
-/// Keys: program, plan, units, together, shard, seconds, containment, printed, incomplete, receipts, results
+/// Keys: program, plan, units, together, shard, seconds, containment, printed, incomplete, devices, receipts, results
 /// (pairs of unit and result).
 std::string to_json(const PartReport& part);
 /// Throws data::ArgumentError: the text is no part.

@@ -112,7 +112,7 @@ Output<Real> allocate_output(const lc_request& request, lc_tessellation& out, st
 /// All rules of channels.
 inline constexpr std::int32_t kAllChannelRules = (2 << LC_CHANNEL_ALL) - 1;
 
-/// Allocates the values of the mesh's channels, or their derivatives, whose triangles are announced: see lc_tessellation.
+/// Allocates the values of the mesh's channels, or their derivatives: see lc_tessellation, whose triangle_count is set.
 template <class Real>
 Real* allocate_channels(const lc_request& request, const lc_mesh& mesh, lc_tessellation& out,
                         void* lc_tessellation::*array = &lc_tessellation::channel_values) {

@@ -185,8 +185,8 @@ class FaceDomain {
       for (Point& p : points) p = *in_part(p, *part, n);
     return part.has_value();
   }
-  /// The straight line from p to q in pieces each of which is two points of one part. Between two parts a line is straight
-  /// along a side only; elsewhere it is one piece of two parts.
+  /// The straight line from p to q in pieces, each within one part and given by its two ends. Between two parts a
+  /// line is straight along a side only; elsewhere it is one piece, whose ends lie in two parts.
   template <class Visit>
   constexpr void for_each_straight(Point p, Point q, std::int64_t n, Visit visit) const {
     std::array<Point, 2> ends{p, q};

@@ -243,17 +243,16 @@ typedef struct lc_tessellation {
   uint32_t size;   /* of this structure, as the host knows it; set beforehand */
   int32_t* corner; /* vertex_count: the corner whose quad i and j are of; 0 on quads and triangles of Loop's.
                       NULL if all are 0 */
-  void*
-      channel_values; /* of each channel of the mesh, one after the other: for each corner of each triangle its
-                           components, on the side of a seam on which the triangle lies. Floats or doubles, by
-                           capabilities.precision. NULL if the mesh has no channels */
-  void*
-      channel_derivatives; /* in the same order and precision: at each corner of each triangle its components'
-                                derivatives by u, then those by v (l1 and l2 of Loop's), towards the triangle. They
-                                are by the parameters of the control face, of one that is no quad by those of the
-                                quad in which the triangle lies, or that the vertex names if it lies in none. What
-                                stands where the limit has no derivatives is not looked at. NULL if the
-                                capabilities promise none, or the mesh has no channels */
+  /* Of each channel of the mesh, one after the other: for each corner of each triangle its components, on the
+   * side of a seam on which the triangle lies. Floats or doubles, by capabilities.precision. NULL if the mesh has
+   * no channels. */
+  void* channel_values;
+  /* In the same order and precision: for each corner of each triangle the derivatives of its components by u, then
+   * those by v (by l1 and l2 on Loop's triangles), as they are on the triangle's side of an edge or seam. u and v are
+   * those of the control face; on a face that is no quad those of the quad in which the triangle lies, or, if it
+   * lies in none, of the quad that the vertex names. Where the limit has no derivatives, anything may stand. NULL if
+   * the capabilities promise none, or the mesh has no channels. */
+  void* channel_derivatives;
 } lc_tessellation;
 
 /* The table of functions that a subject consists of. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// For subjects that compute on a device: what was written there behind an array, or in front of it, shown in the guard zone
-// of the host's array (lc_request::allocate), where the host looks: as many bytes, or as many as each zone has.
+// For subjects that compute on a device. What was written there behind an array, or in front of it, is shown in the
+// guard zone of the host's array (lc_request::allocate), where the host looks: as many bytes as were written, at most
+// as many as every zone has.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 namespace limitcheck::verify {
 
+/// Bytes of the host's guard zones, at least.
 inline constexpr std::size_t kLeastGuardZone = 1024;
 
 inline void show_written_behind(void* end, std::size_t bytes) {

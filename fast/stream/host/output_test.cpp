@@ -122,6 +122,35 @@ TEST(CompactVertex, ComesOutOfVectorsWithTheSameBitsOnEveryTargetWhateverTheLeng
 constexpr std::size_t kLine = 16;  // floats of a cache line
 constexpr float kGuard = -7.25F;
 
+TEST(FloatLanes, AreTheNumbersOfEachLaneOnEveryTarget) {
+  data::SplitMix64 random(5);
+  std::vector<float> numbers(16 * 80);
+  for (float& x : numbers) x = static_cast<float>(random.unit());
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    for (const int lanes : {4, 8, 16})
+      for (int count = 1; count <= 70; ++count)
+        for (const bool moved : {false, true}) {
+          const float* from[16];
+          for (int k = 0; k < lanes; ++k) from[k] = numbers.data() + 79 * k;
+          AlignedFloats out, origin;
+          out.grow(static_cast<std::size_t>(lanes * count + 1));
+          origin.grow(static_cast<std::size_t>(3 * lanes));
+          std::copy_n(numbers.begin(), 3 * lanes, origin.data());
+          out.data()[lanes * count] = kGuard;
+          float_lanes(from, count, moved ? origin.data() : nullptr, lanes, out.data());
+          for (int i = 0; i < lanes * count; ++i)
+            ASSERT_EQ(out.data()[i], from[i % lanes][i / lanes] -
+                                         (moved ? origin.data()[i / lanes % 3 * lanes + i % lanes] : 0))
+                << hwy::TargetName(target) << ": " << lanes << " lanes of " << count;
+          ASSERT_EQ(out.data()[lanes * count], kGuard);
+        }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 // Streams `grids` of a depth to each of the sixteen places that they can have on a cache line.
 template <class Stream, class Item>
 void expect_whole(const std::string& name, const Stream& stream, std::span<const Item> grids, int depth) {

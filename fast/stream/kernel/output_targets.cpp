@@ -73,24 +73,21 @@ HWY_ATTR void fill_lanes(D d, const float* const* from, int count, const float* 
   }
 }
 
+#endif
+
+// Plainly where this target lacks the lanes: another thread may be trying it just now, see ask_every_target().
 HWY_ATTR void lanes_of_floats(const float* const* from, int count, const float* origin, int lanes,
                               float* out) {
-  if (lanes == 16)
-    fill_lanes(hn::CappedTag<float, 16>(), from, count, origin, out);
-  else if (lanes == 8)
-    fill_lanes(hn::CappedTag<float, 8>(), from, count, origin, out);
-  else
-    fill_lanes(hn::CappedTag<float, 4>(), from, count, origin, out);
-}
-
-#else
-
-void lanes_of_floats(const float* const* from, int count, const float* origin, int lanes, float* out) {
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  constexpr hn::CappedTag<float, 16> sixteen;
+  constexpr hn::CappedTag<float, 8> eight;
+  if (lanes == 16 && hn::MaxLanes(sixteen) == 16) return fill_lanes(sixteen, from, count, origin, out);
+  if (lanes == 8 && hn::MaxLanes(eight) == 8) return fill_lanes(eight, from, count, origin, out);
+  if (lanes == 4) return fill_lanes(hn::CappedTag<float, 4>(), from, count, origin, out);
+#endif
   for (int i = 0; i < count * lanes; ++i)
     out[i] = from[i % lanes][i / lanes] - (origin ? origin[i / lanes % 3 * lanes + i % lanes] : 0);
 }
-
-#endif
 
 HWY_ATTR void stream_floats(const float* from, std::size_t count, float* to) {
   const hn::CappedTag<float, 16> d;  // a line, or a power of two less

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has vector loops of its own beside the kernels: the lanes of their input; vertices in 16 bytes, many at a time; and
-// memory written past the caches, for output that is larger than they are and that nobody reads soon.
+// What has vector loops of its own beside the kernels: the lanes of their input; vertices in 16 bytes, many at a time;
+// and memory written past the caches, for output that is larger than they are and that nobody reads soon.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace limitcheck::fast::row_stream {
 
 using fast::CompactVertex, fast::compacted, fast::kCompactNormalBound, fast::unpacked_normal;
 
-/// out[k * lanes + lane] = from[lane][k] - origin[(k % 3) * lanes + lane], k < count; origin may be null. lanes: 4, 8 or 16,
-/// which the machine has; out and origin are aligned to as many numbers. Four numbers are readable from any pointer.
+/// out[k * lanes + lane] = from[lane][k] - origin[(k % 3) * lanes + lane], k < count; origin may be null. lanes: 4, 8 or
+/// 16; out and origin are aligned to as many numbers. Four numbers are readable from any pointer.
 void float_lanes(const float* const* from, int count, const float* origin, int lanes, float* out);
 
 /// `count` vertices into `out`, which holds as many: a CompactRow, with the bits of compacted() on every machine.

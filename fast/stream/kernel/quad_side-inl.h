@@ -208,7 +208,7 @@ class QuadSideStream {
   HWY_ATTR void long_lines(Scalar* work) {
     const int pitch = ((1 << depth_) + 1) * L;
     for (int c = 0; c < 3; ++c) {
-      MemoryLine<N> from[3], to[3];
+      MemoryLine<N> from[3] = {}, to[3] = {};
       for (int level = 1; level <= depth_; ++level) {
         for (int r = 0; r < 3; ++r) from[r] = to[r], to[r] = {work + (level % 2 * 3 + r) * pitch, L};
         refine_lines(c, level, from, to);
@@ -257,8 +257,8 @@ class QuadSideStream {
 
   QuadCorner<N> p_, q_;
   int depth_;
-  Scalar *ends_,
-      *points_;  // of the corners, level by level; of the side, from number 0 on, which is not there
+  Scalar* ends_;    // of the corners, level by level
+  Scalar* points_;  // of the side, from number 0 on, which is not there
   V centre_[3];
   QuadSideLimit<N> limit_;
 };

@@ -128,8 +128,8 @@ HWY_ATTR HWY_INLINE void begin_vertex(Points&& points, Vertex<N>& v, Vertex<N>& 
 }
 
 /// The inside of a row, points 1 .. size - 1, with its ends given; size even, or 1. `points` gives them from 1 on in
-/// turn, see begin_vertex(), and is told which are odd. The normal of a point is brought to length beside the arithmetic of the
-/// next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
+/// turn, see begin_vertex(), and is told which are odd. The normal of a point is brought to length beside the
+/// arithmetic of the next: it is one chain of dependent steps. far: the rows leave no room for the output in the first-level
 /// cache.
 template <class N, class Points, class Row>
 HWY_ATTR HWY_INLINE void scatter_row(Points& points, int size, const Vertex<N>& first, const Vertex<N>& last,

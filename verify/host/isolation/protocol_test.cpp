@@ -205,9 +205,10 @@ TEST(Protocol, HandsChannelsOverAndReadsTheirValues) {
       R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
       R"("weights": "loop", "boundary": "spline", "points": "limit", "max_depth": 5, "normals": false, )"
       R"("per_face_depth": false, "exact_lattice": true, "provenance": false, "points_anywhere": true, )"
-      R"("channels": ["none", "all", "unheard"]})"
+      R"("channels": ["none", "all", "unheard"], "device": "a card\u0007"})"
       "\n");
   EXPECT_EQ(c.values.points_anywhere, 1);
+  EXPECT_EQ(c.device, R"(a card\x07)");
   EXPECT_EQ(c.values.channel_rules, 1 << LC_CHANNEL_NONE | 1 << LC_CHANNEL_ALL);
   const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, values[] = {0.5, 0.25, 1, 0};
   const std::int32_t corners[] = {0, 1, 2}, sizes[] = {3}, indices[] = {0, 1, 1};

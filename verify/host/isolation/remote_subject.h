@@ -29,8 +29,8 @@ struct IsolationSettings {
 class RemoteSubject {
  public:
   enum class Kind { kLibrary, kProgram, kBuiltIn, kShader };
-  /// `what`: a file (of a library, of a shader), a command for /bin/sh, the name of a built-in subject. Starts nothing. Throws
-  /// data::ArgumentError: more than 64 at a time.
+  /// `what`: a file (of a library, of a shader), a command for /bin/sh, the name of a built-in subject. Starts
+  /// nothing. Throws data::ArgumentError: more than 64 at a time.
   RemoteSubject(Kind kind, std::string what, IsolationSettings settings);
   ~RemoteSubject();
   RemoteSubject(const RemoteSubject&) = delete;

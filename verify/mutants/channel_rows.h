@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What the tables of faults of channels are written with. Private to them.
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "reference/surface/channel.h"
+#include "verify/mutants/change_rows.h"
+
+namespace limitcheck::verify::rows {
+
+using Uv = data::Channel&;
+
+/// The one channel of a mesh.
+inline const data::Channel& uv_of(A a) {
+  return a.mesh.channels.front();
+}
+inline data::ChannelRule rule_of(A a) {
+  return uv_of(a).rule.value_or(data::kUsualChannelRule);
+}
+/// What these faults are written for: one channel, of two components.
+inline bool has_uv(const data::ControlMesh& mesh) {
+  return mesh.channels.size() == 1 && mesh.channels[0].components == 2;
+}
+/// Whether a subject is handed it: see Session.
+inline bool has_channel(A a) {
+  return has_uv(a.mesh) && reference::has_exact_cut(a.mesh, uv_of(a), rule_of(a));
+}
+
+inline Change of_channels(Change c, std::function<bool(A)> shows = {}) {
+  c.on = Change::On::kBoth;
+  if (c.deliver)
+    c.deliver = [what = std::move(c.deliver)](A a, D out) {
+      if (out.channel_values.empty() || !has_uv(a.mesh)) nowhere("channel");
+      what(a, out);
+    };
+  if (c.remake)
+    c.remake = [what = std::move(c.remake)](A a, Mesh m) {
+      if (!has_uv(m)) nowhere("channel");
+      what(a, m);
+    };
+  c.shows = [shows = std::move(shows)](A a) { return has_channel(a) && (!shows || shows(a)); };
+  return c;
+}
+
+/// Each corner has the index that `index` says, of a face and a corner of it.
+inline void reindex(A a, Uv uv, const std::function<std::int32_t(std::size_t, std::size_t)>& index) {
+  const data::Faces& faces = a.mesh.faces;
+  std::vector<std::int32_t> corners;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < faces[f].size(); ++k) corners.push_back(index(f, k));
+  uv.corners = std::move(corners);
+}
+/// The index of the first face at the vertex, for all of them.
+inline void join_seams(A a, Uv uv, const std::function<bool(std::int32_t)>& at) {
+  std::vector<std::int32_t> first(a.mesh.positions.size(), -1);
+  const data::Channel before = uv;
+  reindex(a, uv, [&](std::size_t f, std::size_t k) {
+    const std::int32_t v = a.mesh.faces[f][k], own = before.corners[a.mesh.faces.first_corner(f) + k];
+    if (!at(v)) return own;
+    std::int32_t& known = first[static_cast<std::size_t>(v)];
+    return known = known < 0 ? own : known;
+  });
+}
+
+}  // namespace limitcheck::verify::rows

@@ -232,9 +232,10 @@ struct Report {
   double seconds = 0;
   std::string containment;        // how the processes of isolated subjects were held; empty: there were none
   std::vector<Receipt> receipts;  // and what they took
-  std::map<std::string, std::string> devices;  // what subjects compute on besides the processor (subject/devices.h)
-  std::string printed;            // by the subjects, on standard output and standard error
-  std::string incomplete;         // "interrupted by SIGINT": not all was looked at; empty: all was
+  std::map<std::string, std::string>
+      devices;             // what subjects compute on besides the processor (subject/devices.h)
+  std::string printed;     // by the subjects, on standard output and standard error
+  std::string incomplete;  // "interrupted by SIGINT": not all was looked at; empty: all was
 
   /// Against an earlier report (report/known.h), in rows.
   struct Changes {

@@ -100,8 +100,8 @@ struct PartReport {
   Plan plan;
   std::map<std::size_t, nlohmann::json> results;  // by unit
   double seconds = 0;
-  std::string containment, printed;  // as in Report (verify/row/result.h)
-  std::string incomplete;            // why not all of the shard is done; empty: all is
+  std::string containment, printed;            // as in Report (verify/row/result.h)
+  std::string incomplete;                      // why not all of the shard is done; empty: all is
   std::map<std::string, std::string> devices;  // as in Report
   // What subjects took: an array, and of the whole those of all parts (receipts_of in verify/report/json.h).
   nlohmann::json receipts = nlohmann::json::array();

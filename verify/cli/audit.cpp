@@ -12,6 +12,7 @@
 #include "data/bounding_box.h"
 #include "data/error.h"
 #include "data/untrusted_json.h"
+#include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"

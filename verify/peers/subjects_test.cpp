@@ -30,7 +30,9 @@ TEST(MissingAdapters, AreThereOrSaidToBeMissing) {
     const auto missing =
         std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == known.first; });
     ASSERT_EQ(missing == all.end(), find_subject(known.first) != nullptr) << known.first;
-    if (missing != all.end()) EXPECT_TRUE(says(missing->why, known.second)) << missing->why;
+    if (missing != all.end()) {
+      EXPECT_TRUE(says(missing->why, known.second)) << missing->why;
+    }
   }
 }
 

@@ -179,7 +179,7 @@ namespace {
 constexpr std::string_view kTitle = "limitcheck baseline 1";
 
 struct Comparison {
-  std::vector<std::string> appeared, worse, gone;
+  std::vector<std::string> appeared, worse, gone, not_compared;
   std::int64_t same = 0, before = 0;  // before: of a report, its findings
 };
 
@@ -240,6 +240,20 @@ struct Sum {
 };
 using Sums = std::map<std::pair<std::string, std::string>, Sum>;
 
+// "# opensubdiv-gl on llvmpipe, OpenGL 4.5": to what was written before there were such lines a comment.
+std::string device_line(const std::string& subject, const std::string& device) {
+  return fmt::format("# {} on {}", subject, device);
+}
+
+// Subjects that the baseline has on other devices, which round otherwise.
+std::set<std::string> on_other_devices(const Report& report, const std::string& text) {
+  std::set<std::string> subjects;
+  const auto has = [&](const std::string& line) { return text.find(line) != std::string::npos; };
+  for (const auto& [subject, device] : report.devices)
+    if (has(device_line(subject, "")) && !has(device_line(subject, device) + "\n")) subjects.insert(subject);
+  return subjects;
+}
+
 Sums sums_of(const Report& report) {
   Sums sums;
   for (const Result& r : report.results) {
@@ -273,9 +287,16 @@ Sums baseline_sums(const std::string& text, const std::string& file) {
   return sums;
 }
 
-Comparison compare(const Report& report, const Sums& before) {
+Comparison compare(const Report& report, const Sums& before, const std::set<std::string>& elsewhere) {
   Comparison c;
-  const Sums now = sums_of(report);
+  Sums now = sums_of(report);
+  for (const std::string& subject : elsewhere)
+    c.not_compared.push_back(
+        fmt::format("not compared: {}, of which the baseline is of another device", subject));
+  std::erase_if(now, [&](const auto& sum) {
+    const std::string& subject = sum.first.first;
+    return elsewhere.contains(subject.substr(0, subject.find(':')));
+  });
   const auto cases = [](const Sum& s) { return fmt::format("{} case{}", s.cases, s.cases == 1 ? "" : "s"); };
   for (const auto& [key, sum] : now) {
     const std::string name = fmt::format("{} / {}", key.first, key.second);
@@ -293,7 +314,7 @@ Comparison compare(const Report& report, const Sums& before) {
       ++c.same;
   }
   for (const auto& [key, sum] : before)
-    if (!now.contains(key) &&
+    if (!elsewhere.contains(key.first.substr(0, key.first.find(':'))) && !now.contains(key) &&
         std::any_of(report.results.begin(), report.results.end(), [&key = key](const Result& r) {
           return r.subject == key.first && r.check == key.second && looked_at(r);
         }))
@@ -322,8 +343,8 @@ std::vector<Result> reported_rows(const std::string& text, const std::string& fi
 
 void compare_with_baseline(Report& report, const std::string& text, const std::string& file) {
   const bool is_text = text.starts_with(kTitle);
-  const Comparison c =
-      is_text ? compare(report, baseline_sums(text, file)) : compare(report, reported_rows(text, file));
+  const Comparison c = is_text ? compare(report, baseline_sums(text, file), on_other_devices(report, text))
+                               : compare(report, reported_rows(text, file));
   Report::Changes changes;
   changes.baseline = file;
   changes.appeared = static_cast<std::int64_t>(c.appeared.size());
@@ -331,7 +352,7 @@ void compare_with_baseline(Report& report, const std::string& text, const std::s
   changes.gone = static_cast<std::int64_t>(c.gone.size());
   changes.same = c.same;
   changes.before = c.before;
-  for (const auto* list : {&c.appeared, &c.worse, &c.gone})
+  for (const auto* list : {&c.appeared, &c.worse, &c.gone, &c.not_compared})
     changes.named.insert(changes.named.end(), list->begin(), list->end());
   report.changes = std::move(changes);
 }
@@ -340,6 +361,7 @@ std::string to_baseline(const Report& report) {
   std::string text = fmt::format(
       "{}\n# Check, cases in which it is wrong, worst value, subject: limitcheck audit --save-baseline\n",
       kTitle);
+  for (const auto& [subject, device] : report.devices) text += device_line(subject, device) + "\n";
   for (const auto& [key, sum] : sums_of(report))
     text += fmt::format("{} {} {} {}\n", key.second, sum.cases, worst_text(sum.worst), key.first);
   return text;

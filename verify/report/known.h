@@ -44,7 +44,8 @@ inline constexpr double kWorse = 1.1;
 std::vector<Result> reported_rows(const std::string& text, const std::string& file);
 
 /// Compares a report with that of an earlier audit, and fills in report.changes. Of the report as --json writes it, row by
-/// row of the same subject, mesh, depths and check; of a text by to_baseline(), by subject and check:
+/// row of the same subject, mesh, depths and check; of a text by to_baseline(), by subject and check, unless
+/// it is of another device (Report::devices):
 ///   new     a finding or breakdown now; not one in the baseline, or not looked at there
 ///   worse   one in both, and now it breaks down, or its worst value or the share that is wrong, of a text the
 ///           number of cases, is more than kWorse times that of the baseline

@@ -74,6 +74,20 @@ TEST(Baseline, AsATextTellsWhatIsNewWorseAndGoneBySubjectAndCheck) {
   Report another = then;
   another.results[0].check = "normals";
   EXPECT_EQ(changes(another), (Counts{1, 0, 0, 2}));
+  // Another device rounds otherwise: nothing of its subjects is compared, and that is said.
+  Report there = then;
+  there.devices = {{"mine", "llvmpipe"}};
+  Report here = another;
+  here.devices = {{"mine", "a card"}};
+  for (const Report& now : {there, here}) {
+    Report compared = now;
+    compared.results.erase(compared.results.begin() + 2, compared.results.end());
+    compare_with_baseline(compared, to_baseline(there), "known.txt");
+    const auto& c = *compared.changes;
+    const bool same = now.devices == there.devices;
+    EXPECT_EQ((std::array{c.appeared, c.worse, c.gone, c.same}), (same ? Counts{0, 0, 0, 1} : Counts{}));
+    EXPECT_EQ(c.named.size(), same ? 0U : 1U);
+  }
   Report better = then;
   for (Result& r : better.results)
     if (r.subject == "mine") r.status = Status::kHeld, r.bad = 0;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <utility>
 
+#include "reference/catmull_clark/patch.h"
 #include "verify/mutants/change_rows.h"
 #include "verify/mutants/contracted.h"
 
@@ -14,6 +14,8 @@ namespace limitcheck::verify {
 using namespace rows;
 
 namespace {
+
+namespace quads = reference::catmull_clark;
 
 // A closed mesh of quads, each vertex of four: the surface is a bicubic B-spline everywhere.
 bool is_regular(A a) {
@@ -24,54 +26,21 @@ bool is_regular(A a) {
   return a.mesh.sharpness.empty();
 }
 
-using Patch =
-    std::array<std::array<std::int32_t, 4>, 4>;  // control points by u, v; the face is in the middle
-
-// As a shader for regular patches reads them: from the corner at which the face begins.
-Patch patch_of(const data::Faces& faces,
-               const std::map<std::pair<std::int32_t, std::int32_t>, std::size_t>& side, std::size_t f) {
-  // A side's place among all corners, and the corner `more` farther on in its face.
-  const auto corner = [&](std::size_t at, std::size_t more) {
-    return faces.corners()[at / 4 * 4 + (at + more) % 4];
-  };
-  Patch patch;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto put = [&](std::size_t i, std::size_t j, std::int32_t vertex) {
-      for (std::size_t turn = 0; turn < k; ++turn) i = std::exchange(j, i), i = 3 - i;
-      patch[i][j] = vertex;
-    };
-    const std::int32_t a = corner(4 * f + k, 0), b = corner(4 * f + k, 1);
-    const std::size_t beyond = side.at({b, a});
-    const std::int32_t behind_a = corner(beyond, 2), behind_b = corner(beyond, 3);
-    put(1, 1, a);
-    put(1, 0, behind_a);
-    put(2, 0, behind_b);
-    put(0, 0, corner(side.at({behind_a, a}), 3));
-  }
-  return patch;
-}
-
-std::array<double, 4> cubic(double t) {
-  const double s = 1 - t;
-  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
-          t * t * t / 6};
-}
-
+// As a shader for regular patches reads its control points: from the corner at which the face begins.
 void in_own_frame(A a, D out) {
   if (!is_regular(a)) return;
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> side;
-  for (std::size_t f = 0; f < a.mesh.faces.size(); ++f)
-    for (std::size_t k = 0; k < 4; ++k) side[{a.mesh.faces[f][k], a.mesh.faces[f][(k + 1) % 4]}] = 4 * f + k;
   for (std::size_t v = 0; v < out.positions.size(); ++v) {
     const Place at = out.place(v);
-    const Patch patch = patch_of(a.mesh.faces, side, a.face_of(at));
-    const auto u = cubic(static_cast<double>(at.i) / at.denominator),
-               w = cubic(static_cast<double>(at.j) / at.denominator);
+    const auto itself = [](std::int32_t p) { return p; };
+    const auto patch = quads::gather<std::int32_t>(a.topology, a.face_of(at), itself)
+                           .patch([](std::int32_t on_boundary, std::int32_t) { return on_boundary; });
+    const quads::CubicBasis<double> u(static_cast<double>(at.i) / at.denominator),
+        w(static_cast<double>(at.j) / at.denominator);
     out.positions[v] = {};
     for (std::size_t i = 0; i < 4; ++i) {
       Vector row{};
-      for (std::size_t j = 0; j < 4; ++j) add(row, a.mesh.positions[patch[i][j]], w[j]);
-      add(out.positions[v], row, u[i]);
+      for (std::size_t j = 0; j < 4; ++j) add(row, a.mesh.positions[patch[4 * j + i]], w.value[j]);
+      add(out.positions[v], row, u.value[i]);
     }
   }
 }

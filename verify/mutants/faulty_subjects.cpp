@@ -14,7 +14,6 @@
 
 #include "verify/mutants/change_rows.h"
 #include "verify/subject/adapter.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -21,7 +21,6 @@
 #include "reference/loop/stam.h"
 #include "verify/mutants/mutant_rules.h"
 #include "verify/subject/adapter.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"
 

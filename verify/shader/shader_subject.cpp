@@ -15,7 +15,6 @@
 
 #include "verify/gl/context.h"
 #include "verify/peers/evaluated_faces.h"
-#include "verify/shader/half_edges.h"
 #include "verify/shader/prelude.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/devices.h"

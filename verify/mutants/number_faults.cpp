@@ -34,46 +34,37 @@ double shortened(double x, int bits) {
 }  // namespace
 
 std::vector<Change> faults_of_numbers() {
-  const auto positions = [](const char* name, const char* description, const char* check,
-                            std::function<double(A, double)> one) {
-    return vertex(name, description, check, [one](A a, D out, std::size_t v) {
-      each(out.positions[v], [&](double x) { return one(a, x); });
-    });
-  };
   return {
       positions("float_positions", "positions computed in float, and declared double", "positions",
                 [](A, double x) { return shortened(x, 24); }),
       in_float(positions("half_positions", "positions kept in 16 bits", "positions",
                          [](A, double x) { return shortened(x, 11); })),
-      in_float(vertex("bias_3e-6", "all points are 3e-6 of the box too far out", "positions",
-                      [](A a, D out, std::size_t v) { outwards(a, out, v, 3e-6); })),
+      in_float(outwards("bias_3e-6", "all points are 3e-6 of the box too far out", "positions",
+                        [](const At&) { return 3e-6; })),
       positions("fixed_point", "positions are multiples of 2^-40 units", "scaling",
                 [](A, double x) { return rounded(x, 40); }),
       positions("grid_of_largest", "positions are multiples of 2^-32 of the largest coordinate",
                 "translation",
                 [](A a, double x) { return a.largest > 0 ? rounded(x / a.largest, 32) * a.largest : x; }),
       // Normals.
-      vertex(
-          "float_normals", "normals computed in float, and declared double", "normals",
-          [](A, D out, std::size_t v) { each(out.normals[v], [](double x) { return shortened(x, 24); }); }),
-      vertex("two_components", "normals kept as two floats: the third by a square root", "rotation",
-             [](A, D out, std::size_t v) {
-               Vector& n = out.normals[v];
-               each(n, [](double x) { return static_cast<double>(static_cast<float>(x)); });
-               n[2] = std::copysign(std::sqrt(std::max(0., 1 - n[0] * n[0] - n[1] * n[1])), n[2]);
-             }),
-      vertex("tilted_normals", "normals tilted by 1e-3 rad", "normals-against-positions",
-             [](A, D out, std::size_t v) {
-               Vector& n = out.normals[v];
-               const Vector aside = unit_cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
-               add(n, aside, 1e-3);
-               n = unit(n);
-             }),
+      normals("float_normals", "normals computed in float, and declared double", "normals",
+              [](Vector& n) { each(n, [](double x) { return shortened(x, 24); }); }),
+      normals("two_components", "normals kept as two floats: the third by a square root", "rotation",
+              [](Vector& n) {
+                each(n, [](double x) { return static_cast<double>(static_cast<float>(x)); });
+                n[2] = std::copysign(std::sqrt(std::max(0., 1 - n[0] * n[0] - n[1] * n[1])), n[2]);
+              }),
+      normals("tilted_normals", "normals tilted by 1e-3 rad", "normals-against-positions",
+              [](Vector& n) {
+                const Vector aside = unit_cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+                add(n, aside, 1e-3);
+                n = unit(n);
+              }),
       vertex("boundary_normals_inside", "normals point inside at boundary vertices of four faces or more",
              "normals",
-             [](A a, D out, std::size_t v) {
-               const std::int32_t at = a.control_vertex(out.place(v));
-               if (at >= 0 && !a.inside(at) && a.faces(at) >= 4) each(out.normals[v], std::negate<>());
+             [](const At& at) {
+               const std::int32_t c = at.control_vertex();
+               if (c >= 0 && !at.a.inside(c) && at.a.faces(c) >= 4) negate(at.normal());
              }),
       deliver("hard_edges",
               "normals on the borders of odd faces are those of the flat triangle between its corners",
@@ -101,32 +92,25 @@ std::vector<Change> faults_of_numbers() {
                 }
               }),
       // Relations.
-      vertex("gap_1e-9", "odd faces keep their border points 1e-9 of the box away", "continuity",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               if (!inside_face(a, p) && in_odd_face(p)) outwards(a, out, v, 1e-9);
-             }),
-      vertex("by_face_number", "points inside odd faces are 1e-9 of the box off", "face-order",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               if (inside_face(a, p) && in_odd_face(p)) outwards(a, out, v, 1e-9);
-             }),
+      outwards("gap_1e-9", "odd faces keep their border points 1e-9 of the box away", "continuity",
+               [](const At& at) { return !at.inside_face() && in_odd_face(at.p) ? 1e-9 : 0; }),
+      outwards("by_face_number", "points inside odd faces are 1e-9 of the box off", "face-order",
+               [](const At& at) { return at.inside_face() && in_odd_face(at.p) ? 1e-9 : 0; }),
       remake("by_vertex_number", "odd control vertices are 1e-9 of the box off", "vertex-order",
              [](A a, Mesh m) {
                for (std::size_t v = 1; v < m.positions.size(); v += 2) m.positions[v][0] += 1e-9 * a.diagonal;
              }),
-      vertex("by_first_corner", "points inside faces lean towards the first corner", "corner-rotation",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               const double n = p.denominator;
-               if (inside_face(a, p)) outwards(a, out, v, 1e-9 * (n - p.i - p.j) / n);
-             }),
+      outwards("by_first_corner", "points inside faces lean towards the first corner", "corner-rotation",
+               [](const At& at) {
+                 const double n = at.p.denominator;
+                 return at.inside_face() ? 1e-9 * (n - at.p.i - at.p.j) / n : 0;
+               }),
       vertex("right_half", "points with positive x are 1e-9 of the box off", "mirror",
-             [](A a, D out, std::size_t v) {
-               if (out.positions[v][0] > 0) out.positions[v][1] += 1e-9 * a.diagonal;
+             [](const At& at) {
+               if (at.position()[0] > 0) at.position()[1] += 1e-9 * at.a.diagonal;
              }),
       vertex("along_z", "z is stretched by 1e-9", "rotation",
-             [](A, D out, std::size_t v) { out.positions[v][2] *= 1 + 1e-9; }),
+             [](const At& at) { at.position()[2] *= 1 + 1e-9; }),
       positions("about_origin", "everything is stretched by 1e-9 from the origin", "translation",
                 [](A, double x) { return x * (1 + 1e-9); }),
       positions("absolute_offset", "everything is moved by 1e-9 of the unit of length", "scaling",
@@ -135,24 +119,23 @@ std::vector<Change> faults_of_numbers() {
 }
 // Only polygons, or meshes of quads, bring these out.
 std::vector<Change> faults_of_polygons() {
-  const auto of_polygons = [](const char* name, const char* description, const char* check,
-                              std::function<void(A, D, std::size_t)> what) {
-    return vertex(name, description, check, [what](A a, D out, std::size_t v) {
-      if (a.is_polygon(a.face_of(out.place(v)))) what(a, out, v);
+  const auto in_polygon = [](const At& at) { return at.a.is_polygon(at.face()); };
+  const auto of_polygons = [&](const char* name, const char* description, const char* check,
+                               std::function<void(const At&)> what) {
+    return vertex(name, description, check, [in_polygon, what](const At& at) {
+      if (in_polygon(at)) what(at);
     });
   };
   std::vector<Change> all{
       of_polygons("flipped_on_polygons", "normals inside faces that are no quads point inward", "normals",
-                  [](A a, D out, std::size_t v) {
-                    if (inside_face(a, out.place(v))) each(out.normals[v], std::negate<>());
+                  [](const At& at) {
+                    if (at.inside_face()) negate(at.normal());
                   }),
       of_polygons("next_corner", "points of the quad at a corner are said to be of the next corner's",
                   "positions",
-                  [](A a, D out, std::size_t v) {
-                    out.corner[v] = a.domain(a.face_of(out.place(v))).next(out.corner[v]);
-                  }),
+                  [](const At& at) { at.out.corner[at.v] = at.domain().next(at.out.corner[at.v]); }),
       vertex("u_for_v", "u and v are exchanged", "orientation",
-             [](A, D out, std::size_t v) { std::swap(out.provenance[v].i, out.provenance[v].j); }),
+             [](const At& at) { std::swap(at.out.provenance[at.v].i, at.out.provenance[at.v].j); }),
       ask("one_level_more_in_polygons", "faces that are no quads are one level finer than asked for",
           "coverage",
           [](A a, Depths d) {
@@ -181,15 +164,14 @@ std::vector<Change> faults_of_polygons() {
               }),
       vertex("by_parameter", "points on sides are one ulp off where the parameter along the side is small",
              "corner-rotation",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               const auto at = a.side_of(p);
-               if (!at || at->along == 0) return;
-               const std::int64_t n = a.steps(p), along = at->side >= 2 ? n - at->along : at->along;
-               if (2 * along < n) out.move_up(v);
+             [](const At& at) {
+               const auto side = at.side();
+               if (!side || side->along == 0) return;
+               const std::int64_t n = at.steps(), along = side->side >= 2 ? n - side->along : side->along;
+               if (2 * along < n) at.out.move_up(at.v);
              }),
       of_polygons("ulp_on_polygons", "points of faces that are no quads are one ulp off", "shared-positions",
-                  [](A, D out, std::size_t v) { out.move_up(v); }),
+                  [](const At& at) { at.out.move_up(at.v); }),
   };
   for (Change& c : all) c.on = On::kQuads;
   return all;

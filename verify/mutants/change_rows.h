@@ -16,7 +16,6 @@
 namespace limitcheck::verify {
 
 // The tables, by what they are about; each of faulty_subjects.h is made of some.
-std::vector<Change> faults_of_arithmetic();
 std::vector<Change> faults_of_channel_derivatives();
 std::vector<Change> faults_of_channels();
 std::vector<Change> faults_of_frames();

@@ -163,7 +163,8 @@ inline Vector unit_cross(const Vector& p, const Vector& q) {
 inline Change outwards(const char* name, const char* description, const char* check,
                        std::function<double(const At&)> share) {
   return vertex(name, description, check, [share](const At& at) {
-    if (!at.out.normals.empty()) add(at.position(), at.normal(), share(at) * at.a.diagonal);
+    if (const double by = share(at); by != 0 && !at.out.normals.empty())
+      add(at.position(), at.normal(), by * at.a.diagonal);
   });
 }
 /// Each coordinate of each position becomes what `one` makes of it.

@@ -148,11 +148,11 @@ class EngineSubject {
     const std::span<const std::int32_t> depth(request.face_depth, mesh_.faces.size());
     refuse_too_many_vertices(depth);
     const bool corners = chosen_.tessellator.scheme == data::Scheme::kCatmullClark;
-    if (double_)
-      frame(*double_, depth).hand_over<double>(request, out, true, corners);
-    else
-      (chosen_.form == Form::kPatches ? patches(depth) : frame(*float_, depth))
-          .hand_over<float>(request, out, true, corners);
+    const DeliveredArrays made = double_                          ? frame(*double_, depth)
+                                 : chosen_.form == Form::kPatches ? patches(depth)
+                                                                  : frame(*float_, depth);
+    double_ ? made.hand_over<double>(request, out, true, corners)
+            : made.hand_over<float>(request, out, true, corners);
   }
 
  private:

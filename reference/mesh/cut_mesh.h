@@ -22,8 +22,9 @@ namespace limitcheck::reference {
 
 /// Turns the points of a step by the smooth rules (vertices, edge points, ..) into those of a step with sharp
 /// edges and vertices.
-template <class N>
-void sharpen(const Topology& topology, const Sharpness& sharpness, const std::vector<Vec3<N>>& positions,
+///   Rules   Sharpness, or what answers as it does
+template <class N, class Rules>
+void sharpen(const Topology& topology, const Rules& sharpness, const std::vector<Vec3<N>>& positions,
              std::vector<Vec3<N>>& refined) {
   const auto at = [&](std::int32_t v) -> const Vec3<N>& { return positions[static_cast<std::size_t>(v)]; };
   for (std::size_t e = 0; e < topology.edges().size(); ++e) {

@@ -9,7 +9,6 @@
 
 #include "reference/surface/surface.h"
 #include "verify/subject/adapter.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/face_domain.h"
 #include "verify/subject/registry.h"
 

@@ -25,15 +25,12 @@ Delivered::Delivered(const Tessellation& good) : single(good.precision() == LC_F
   triangle_face.assign(good.triangle_face().begin(), good.triangle_face().end());
   for (std::size_t c = 0; c < good.channel_count(); ++c)
     for (std::int64_t t = 0; t < good.triangle_count(); ++t)
-      for (int k = 0; k < 3; ++k)
-        for (int component = 0; component < good.components(c); ++component)
-          channel_values.push_back(good.channel_value(c, t, k, component));
-  for (std::size_t c = 0; good.has_channel_derivatives() && c < good.channel_count(); ++c)
-    for (std::int64_t t = 0; t < good.triangle_count(); ++t)
-      for (int k = 0; k < 3; ++k)
-        for (const int by : {0, 1})
-          for (int component = 0; component < good.components(c); ++component)
-            channel_derivatives.push_back(good.channel_derivative(c, t, k, component, by));
+      for (int k = 0; k < 3; ++k) {
+        const int components = good.components(c);
+        for (int i = 0; i < components; ++i) channel_values.push_back(good.channel_value(c, t, k, i));
+        for (int i = 0; good.has_channel_derivatives() && i < 2 * components; ++i)
+          channel_derivatives.push_back(good.channel_derivative(c, t, k, i % components, i / components));
+      }
   for (std::int64_t v = 0; v < good.vertex_count(); ++v) {
     positions.push_back(good.position(v));
     if (good.has_normals()) normals.push_back(good.normal(v));

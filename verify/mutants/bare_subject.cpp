@@ -1,79 +1,69 @@
 // SPDX-License-Identifier: MIT
 // Another subject without its provenance: uniform depths, points and triangles alone, as most tessellators deliver.
-#include <memory>
-#include <string_view>
+#include <string>
 
+#include "verify/subject/adapter.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {
 namespace {
 
-// Of the options "bare=NAME,REST": the subject, and what is left for it.
-struct Inner {
-  explicit Inner(const char* options) {
-    constexpr std::string_view kKey = "bare=";
-    const std::string_view all = options != nullptr ? options : "";
-    if (!all.starts_with(kKey)) return;
-    const std::size_t end = all.find(',');
-    subject = find_subject(all.substr(0, end).substr(kKey.size()));
-    if (end != std::string_view::npos) rest = options + end + 1;
+class BareSubject {
+ public:
+  static constexpr bool kLeavesRefusals = true;  // to the other subject
+
+  static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
+    const lc_subject& of = inner(options);
+    lc_capabilities result{};
+    result.size = sizeof result;
+    result.scheme = scheme;
+    pass_on([&](const char** why) { return of.capabilities(options.rest().c_str(), &result, why); });
+    result.per_face_depth = 0;
+    result.no_provenance = 1;
+    result.points_anywhere = 0;
+    return result;
   }
-  const lc_subject* subject = nullptr;
-  const char* rest = nullptr;
+
+  BareSubject(const lc_mesh& mesh, Options& options) : subject_(inner(options)) {
+    pass_on(
+        [&](const char** why) { return subject_.create(&mesh, options.rest().c_str(), &instance_, why); });
+  }
+  ~BareSubject() { subject_.destroy(instance_); }
+  BareSubject(const BareSubject&) = delete;
+  BareSubject& operator=(const BareSubject&) = delete;
+
+  void tessellate(const lc_request& request, lc_tessellation& out) {
+    pass_on([&](const char** why) { return subject_.tessellate(instance_, &request, &out, why); });
+    out.provenance = nullptr;
+    out.triangle_face = nullptr;
+    out.corner = nullptr;
+    subject_.release(instance_, &out);  // the arrays are the host's
+  }
+
+ private:
+  // Of the options "bare=NAME,REST", where the rest is for that subject.
+  static const lc_subject& inner(Options& options) {
+    const lc_subject* const found = find_subject(options.value("bare", ""));
+    if (found == nullptr) throw SubjectError(LC_INVALID_INPUT, "the options are bare=SUBJECT and its own");
+    return *found;
+  }
+  template <class Call>
+  static void pass_on(Call call) {
+    const char* why = nullptr;
+    if (const lc_status status = call(&why); status != LC_OK)
+      throw SubjectError(status, why != nullptr ? why : "");
+  }
+
+  const lc_subject& subject_;
+  void* instance_ = nullptr;
 };
-
-struct Instance {
-  const lc_subject* subject;
-  void* of;
-};
-
-lc_status refuse(const char** message) {
-  *message = "the options begin with bare=SUBJECT";
-  return LC_INVALID_INPUT;
-}
-
-const lc_subject kBare{
-    LC_SUBJECT_ABI,
-    "bare",
-    "another subject without its provenance",
-    "bare=SUBJECT first, and the options of that subject",
-    [](const char* options, lc_capabilities* out, const char** message) {
-      const Inner inner(options);
-      if (inner.subject == nullptr) return refuse(message);
-      const lc_status status = inner.subject->capabilities(inner.rest, out, message);
-      out->per_face_depth = 0;
-      out->no_provenance = 1;
-      out->points_anywhere = 0;
-      return status;
-    },
-    [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
-      const Inner inner(options);
-      if (inner.subject == nullptr) return refuse(message);
-      auto made = std::make_unique<Instance>(Instance{inner.subject, nullptr});
-      const lc_status status = inner.subject->create(mesh, inner.rest, &made->of, message);
-      if (status == LC_OK) *instance = made.release();
-      return status;
-    },
-    [](void* instance, const lc_request* request, lc_tessellation* out, const char** message) {
-      const auto [subject, of] = *static_cast<Instance*>(instance);
-      const lc_status status = subject->tessellate(of, request, out, message);
-      out->provenance = nullptr;
-      out->triangle_face = nullptr;
-      out->corner = nullptr;
-      return status;
-    },
-    [](void* instance, lc_tessellation* out) {
-      const auto [subject, of] = *static_cast<Instance*>(instance);
-      subject->release(of, out);
-    },
-    [](void* instance) {
-      const std::unique_ptr<Instance> own(static_cast<Instance*>(instance));
-      own->subject->destroy(own->of);
-    }};
 
 }  // namespace
 }  // namespace limitcheck::verify
 
 extern "C" const lc_subject* lc_subject_bare() {
-  return &limitcheck::verify::kBare;
+  using namespace limitcheck::verify;
+  static const lc_subject subject = make_subject<BareSubject>(
+      "bare", "another subject without its provenance", "bare=SUBJECT, and the options of that subject");
+  return &subject;
 }

@@ -16,7 +16,6 @@
 namespace limitcheck::verify {
 
 // The tables, by what they are about; each of faulty_subjects.h is made of some.
-std::vector<Change> faults_of_arithmetic();
 std::vector<Change> faults_of_channel_derivatives();
 std::vector<Change> faults_of_channels();
 std::vector<Change> faults_of_frames();
@@ -72,11 +71,26 @@ inline Change deliver(const char* name, const char* description, const char* che
                       std::function<void(A, D)> what) {
   return with(row(name, description, check), &Change::deliver, std::move(what));
 }
-/// Of each vertex.
+/// A vertex that was delivered.
+struct At {
+  A a;
+  D out;
+  std::size_t v;
+  Place p;
+  Vector& position() const { return out.positions[v]; }
+  Vector& normal() const { return out.normals[v]; }
+  std::size_t face() const { return Asked::face_of(p); }
+  FaceDomain domain() const { return a.domain(face()); }
+  std::int64_t steps() const { return a.steps(p); }
+  std::optional<FaceDomain::SidePoint> side() const { return a.side_of(p); }
+  bool inside_face() const { return !side(); }
+  std::int32_t control_vertex() const { return a.control_vertex(p); }
+};
+/// What is done to each vertex.
 inline Change vertex(const char* name, const char* description, const char* check,
-                     std::function<void(A, D, std::size_t)> what) {
+                     std::function<void(const At&)> what) {
   return deliver(name, description, check, [what](A a, D out) {
-    for (std::size_t v = 0; v < out.positions.size(); ++v) what(a, out, v);
+    for (std::size_t v = 0; v < out.positions.size(); ++v) what({a, out, v, out.place(v)});
   });
 }
 inline Change ask(const char* name, const char* description, const char* check,
@@ -145,9 +159,30 @@ inline Vector unit_cross(const Vector& p, const Vector& q) {
   return unit({p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]});
 }
 
-/// Along the normal, by a share of the box.
-inline void outwards(A a, D out, std::size_t v, double by) {
-  if (!out.normals.empty()) add(out.positions[v], out.normals[v], by * a.diagonal);
+/// Each vertex moves along its normal, by a share of the box.
+inline Change outwards(const char* name, const char* description, const char* check,
+                       std::function<double(const At&)> share) {
+  return vertex(name, description, check, [share](const At& at) {
+    if (const double by = share(at); by != 0 && !at.out.normals.empty())
+      add(at.position(), at.normal(), by * at.a.diagonal);
+  });
+}
+/// Each coordinate of each position becomes what `one` makes of it.
+inline Change positions(const char* name, const char* description, const char* check,
+                        std::function<double(A, double)> one) {
+  return vertex(name, description, check,
+                [one](const At& at) { each(at.position(), [&](double x) { return one(at.a, x); }); });
+}
+/// Normals become what `what` makes of them.
+inline Change normals(const char* name, const char* description, const char* check,
+                      std::function<void(Vector&)> what) {
+  return deliver(name, description, check, [what](A, D out) {
+    if (out.normals.empty() && !out.positions.empty()) nowhere("normal");
+    for (Vector& n : out.normals) what(n);
+  });
+}
+inline void negate(Vector& n) {
+  each(n, std::negate<>());
 }
 
 /// Moves the vertices that `is_off` names by their places along x by 1e-5 of the largest coordinate.

@@ -41,17 +41,13 @@ Change each_derivative(const char* name, const char* description,
 }
 // Those of another channel on the same mesh.
 Change derivatives_of(const char* name, const char* description, std::function<void(A, Uv)> other) {
-  const auto changed = [other](A a) {
-    data::ControlMesh mesh = a.mesh;
-    other(a, mesh.channels.front());
-    return mesh;
-  };
+  const auto change = [other](A a) { return [other, &a](Mesh m) { other(a, m.channels.front()); }; };
   return derivatives(
       name, description,
-      [changed](A a, std::vector<double>& all, const Delivered&) {
-        all = a.again(changed(a), {a.depth.begin(), a.depth.end()}).channel_derivatives;
+      [change](A a, std::vector<double>& all, const Delivered&) {
+        all = again(a, change(a)).channel_derivatives;
       },
-      [changed](A a) { return !(changed(a) == a.mesh); });
+      [change](A a) { return changes(a, change(a)); });
 }
 
 }  // namespace

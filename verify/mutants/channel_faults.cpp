@@ -20,33 +20,39 @@ namespace {
 using data::Channel, data::ChannelRule;
 
 // Another channel of the same surface. Shows where it is another one.
-Change channel(std::string name, std::string description, std::function<void(A, Uv)> what,
-               std::function<bool(A)> shows = {}) {
+Change channel(std::string name, std::string description, std::function<void(A, Uv)> what) {
+  const auto change = [what](A a) { return [what, &a](Mesh m) { what(a, m.channels.front()); }; };
   return of_channels(remake(std::move(name), std::move(description), "channel-positions",
-                            [what](A a, Mesh m) { what(a, m.channels.front()); }),
-                     [what, shows = std::move(shows)](A a) {
-                       if (shows && !shows(a)) return false;
-                       Channel other = uv_of(a);
-                       what(a, other);
-                       return !(other == uv_of(a));
-                     });
+                            [change](A a, Mesh m) { change(a)(m); }),
+                     [change](A a) { return changes(a, change(a)); });
+}
+// With other indices.
+Change indices(const char* name, const char* description,
+               std::function<std::int32_t(A, const Channel&, std::size_t face, std::size_t corner)> index) {
+  return channel(name, description, [index](A a, Uv uv) {
+    reindex(a, uv,
+            [&](const Channel& before, std::size_t f, std::size_t k) { return index(a, before, f, k); });
+  });
+}
+// With one value at each of some vertices.
+Change joined(const char* name, const char* description, std::function<bool(A, std::int32_t)> at) {
+  return channel(name, description,
+                 [at](A a, Uv uv) { join_seams(a, uv, [&](std::int32_t v) { return at(a, v); }); });
+}
+// With other values: two components each.
+Change values_of(const char* name, const char* description, std::function<void(double&, double&)> what) {
+  return channel(name, description, [what](A, Uv uv) {
+    for (std::size_t i = 0; i + 1 < uv.values.size(); i += 2) what(uv.values[i], uv.values[i + 1]);
+  });
 }
 
 // The channel as it were with other tags; the surface keeps its own.
 Change tags_of_channel(const char* name, const char* description, std::function<void(Tags)> what) {
-  const auto changes = [what](A a) {
-    data::Sharpness other = a.mesh.sharpness;
-    what(other);
-    return !(other == a.mesh.sharpness);
-  };
-  return sharp(of_channels(
-      deliver(name, description, "channel-positions",
-              [what](A a, D out) {
-                data::ControlMesh other = a.mesh;
-                what(other.sharpness);
-                out.channel_values = a.again(other, {a.depth.begin(), a.depth.end()}).channel_values;
-              }),
-      [changes](A a) { return changes(a) && rule_of(a) < ChannelRule::kBoundaries; }));
+  const auto change = [what](Mesh m) { what(m.sharpness); };
+  return sharp(
+      of_channels(deliver(name, description, "channel-positions",
+                          [change](A a, D out) { out.channel_values = again(a, change).channel_values; }),
+                  [change](A a) { return changes(a, change) && rule_of(a) < ChannelRule::kBoundaries; }));
 }
 
 // The channel by another rule on some faces of the control mesh.
@@ -54,43 +60,45 @@ Change on_faces(const char* name, const char* description, ChannelRule rule,
                 std::function<bool(A, std::size_t)> some) {
   return of_channels(deliver(name, description, "channel-positions",
                              [=](A a, D out) {
-                               data::ControlMesh other = a.mesh;
-                               other.channels.front().rule = rule;
-                               const Delivered by_rule = a.again(other, {a.depth.begin(), a.depth.end()});
+                               const Delivered by_rule =
+                                   again(a, [&](Mesh m) { m.channels.front().rule = rule; });
                                for (std::size_t t = 0; t < out.triangles.size(); ++t)
                                  if (some(a, static_cast<std::size_t>(out.triangle_face[t])))
-                                   std::copy_n(
-                                       by_rule.channel_values.begin() + static_cast<std::ptrdiff_t>(6 * t), 6,
-                                       out.channel_values.begin() + static_cast<std::ptrdiff_t>(6 * t));
+                                   std::copy_n(&by_rule.channel_values[6 * t], 6, &out.channel_values[6 * t]);
                              }),
                      [rule](A a) { return rule_of(a) != rule && a.deepest > 0; });
 }
+// On the faces at some vertices.
+Change on_faces_at(const char* name, const char* description, ChannelRule rule,
+                   std::function<bool(A, std::int32_t)> some) {
+  return on_faces(name, description, rule, [some](A a, std::size_t f) {
+    const auto corners = a.mesh.faces[f];
+    return std::any_of(corners.begin(), corners.end(), [&](std::int32_t v) { return some(a, v); });
+  });
+}
 
 // The values delivered: two numbers for each corner of each triangle.
-Change values_of_channel(const char* name, const char* description, const char* check,
-                         std::function<void(A, std::vector<double>&)> what) {
-  return of_channels(deliver(name, description, check, [what](A a, D out) { what(a, out.channel_values); }));
+Change delivered_values(const char* name, const char* description, const char* check,
+                        std::function<void(std::vector<double>&)> what) {
+  return of_channels(deliver(name, description, check, [what](A, D out) { what(out.channel_values); }));
 }
 
+// The number of the face's corner at a vertex.
+std::size_t corner_of(A a, std::int32_t face, std::int32_t v) {
+  const auto corners = a.mesh.faces[static_cast<std::size_t>(face)];
+  const auto at = std::find(corners.begin(), corners.end(), v) - corners.begin();
+  return a.mesh.faces.first_corner(static_cast<std::size_t>(face)) + static_cast<std::size_t>(at);
+}
 bool seam_at(A a, std::int32_t v) {
-  std::set<std::int32_t> indices;
-  const data::Faces& faces = a.mesh.faces;
-  for (const std::int32_t f : a.topology.sector(v).faces)
-    for (std::size_t k = 0; k < faces[static_cast<std::size_t>(f)].size(); ++k)
-      if (faces[static_cast<std::size_t>(f)][k] == v)
-        indices.insert(uv_of(a).corners[faces.first_corner(static_cast<std::size_t>(f)) + k]);
-  return indices.size() > 1;
+  const auto faces = a.topology.sector(v).faces;
+  const auto index = [&](std::int32_t f) { return uv_of(a).corners[corner_of(a, f, v)]; };
+  return std::any_of(faces.begin(), faces.end(), [&](std::int32_t f) { return index(f) != index(faces[0]); });
 }
-bool any_corner(A a, std::size_t face, const std::function<bool(std::int32_t)>& is) {
-  const auto corners = a.mesh.faces[face];
-  return std::any_of(corners.begin(), corners.end(), is);
+bool on_boundary(A a, std::int32_t v) {
+  return !a.inside(v);
 }
-bool on_boundary(A a, std::size_t face) {
-  return any_corner(a, face, [&](std::int32_t v) { return !a.inside(v); });
-}
-bool extraordinary(A a, std::size_t face) {
-  const int regular = a.scheme == data::Scheme::kLoop ? 6 : 4;
-  return any_corner(a, face, [&](std::int32_t v) { return a.inside(v) && a.faces(v) != regular; });
+bool is_regular(A a, std::int32_t v) {
+  return a.faces(v) == (a.scheme == data::Scheme::kLoop ? 6 : 4);
 }
 
 // A value of its own for each run of a value that has several.
@@ -130,18 +138,12 @@ std::vector<Change> by_rules() {
 
 std::vector<Change> by_indices() {
   return {
-      channel("channel_by_vertex", "one value for each vertex: smooth across seams",
-              [](A a, Uv uv) { join_seams(a, uv, [](std::int32_t) { return true; }); }),
-      channel("channel_joined_inside", "one value for each vertex inside the surface",
-              [](A a, Uv uv) { join_seams(a, uv, [&](std::int32_t v) { return a.inside(v); }); }),
-      channel("channel_joined_on_boundary", "one value for each vertex on the boundary",
-              [](A a, Uv uv) { join_seams(a, uv, [&](std::int32_t v) { return !a.inside(v); }); }),
-      channel("channel_joined_at_regular_vertices", "one value for each regular vertex",
-              [](A a, Uv uv) {
-                join_seams(a, uv, [&](std::int32_t v) {
-                  return a.faces(v) == (a.scheme == data::Scheme::kLoop ? 6 : 4);
-                });
-              }),
+      joined("channel_by_vertex", "one value for each vertex: smooth across seams",
+             [](A, std::int32_t) { return true; }),
+      joined("channel_joined_inside", "one value for each vertex inside the surface",
+             [](A a, std::int32_t v) { return a.inside(v); }),
+      joined("channel_joined_on_boundary", "one value for each vertex on the boundary", on_boundary),
+      joined("channel_joined_at_regular_vertices", "one value for each regular vertex", is_regular),
       channel("channel_by_corner", "a value for each corner: every edge is a seam",
               [](A, Uv uv) {
                 Channel apart{uv.name, 2, {}, {}, uv.rule};
@@ -152,96 +154,72 @@ std::vector<Change> by_indices() {
                 uv = apart;
               }),
       channel("channel_parted_values", "a value that meets itself at a vertex alone is several", part_values),
-      channel("channel_index_of_next_corner", "indices are those of the next corner of the face",
-              [](A a, Uv uv) {
-                const Channel before = uv;
-                reindex(a, uv, [&](std::size_t f, std::size_t k) {
-                  return before.corners[a.mesh.faces.first_corner(f) + (k + 1) % a.mesh.faces[f].size()];
-                });
+      indices("channel_index_of_next_corner", "indices are those of the next corner of the face",
+              [](A a, const Channel& uv, std::size_t f, std::size_t k) {
+                return uv.corners[a.mesh.faces.first_corner(f) + (k + 1) % a.mesh.faces[f].size()];
               }),
-      channel("channel_index_of_last_face", "the last face has the indices of the first corner alone",
-              [](A a, Uv uv) {
-                const Channel before = uv;
-                reindex(a, uv, [&](std::size_t f, std::size_t k) {
-                  const std::size_t first = a.mesh.faces.first_corner(f);
-                  return before.corners[f + 1 == a.mesh.faces.size() ? first : first + k];
-                });
+      indices("channel_index_of_last_face", "the last face has the indices of the first corner alone",
+              [](A a, const Channel& uv, std::size_t f, std::size_t k) {
+                const std::size_t first = a.mesh.faces.first_corner(f);
+                return uv.corners[f + 1 == a.mesh.faces.size() ? first : first + k];
               }),
-      channel("channel_number_of_vertex", "values are looked up by the number of the vertex",
-              [](A a, Uv uv) {
-                const auto count = static_cast<std::int32_t>(uv.values.size() / 2);
-                reindex(a, uv, [&](std::size_t f, std::size_t k) { return a.mesh.faces[f][k] % count; });
+      indices("channel_number_of_vertex", "values are looked up by the number of the vertex",
+              [](A a, const Channel& uv, std::size_t f, std::size_t k) {
+                return a.mesh.faces[f][k] % static_cast<std::int32_t>(uv.values.size() / 2);
               }),
       channel("channel_index_of_a_byte", "indices have a byte",
               [](A, Uv uv) {
                 for (auto& i : uv.corners) i %= 64;
               }),
-      channel("channel_chart_of_next_face", "at a vertex a face has the value of the face before it",
-              [](A a, Uv uv) {
-                const Channel before = uv;
-                reindex(a, uv, [&](std::size_t f, std::size_t k) {
-                  const std::int32_t v = a.mesh.faces[f][k];
-                  const auto sector = a.topology.sector(v);
-                  const auto at = static_cast<std::size_t>(a.topology.ring_index(f, k));
-                  const auto other = static_cast<std::size_t>(
-                      sector.faces[(at + sector.faces.size() - 1) % sector.faces.size()]);
-                  const auto corners = a.mesh.faces[other];
-                  const auto place = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) -
-                                                              corners.begin());
-                  return before.corners[a.mesh.faces.first_corner(other) + place];
-                });
+      indices("channel_chart_of_next_face", "at a vertex a face has the value of the face before it",
+              [](A a, const Channel& uv, std::size_t f, std::size_t k) {
+                const std::int32_t v = a.mesh.faces[f][k];
+                const auto faces = a.topology.sector(v).faces;
+                const auto at = static_cast<std::size_t>(a.topology.ring_index(f, k));
+                return uv.corners[corner_of(a, faces[(at + faces.size() - 1) % faces.size()], v)];
               }),
   };
 }
 
 std::vector<Change> by_values() {
-  const auto each_value = [](auto what) {
-    return [what](A, Uv uv) {
-      for (std::size_t i = 0; i + 1 < uv.values.size(); i += 2) what(uv.values[i], uv.values[i + 1]);
-    };
-  };
+  using All = std::vector<double>&;
   return {
-      channel("channel_first_component", "the second component is 0",
-              each_value([](double&, double& v) { v = 0; })),
-      channel("channel_swapped_components", "the components are exchanged",
-              each_value([](double& u, double& v) { std::swap(u, v); })),
-      channel("channel_upside_down", "the second component is counted from the top",
-              each_value([](double&, double& v) { v = 1 - v; })),
-      channel("channel_wrapped", "values are wrapped into 0 to 1",
-              each_value([](double& u, double& v) { u -= std::floor(u), v -= std::floor(v); })),
-      channel("channel_clamped", "values are clamped to 0 to 1",
-              each_value([](double& u, double& v) { u = std::clamp(u, 0., 1.), v = std::clamp(v, 0., 1.); })),
-      channel("channel_of_a_byte", "values have eight bits", each_value([](double& u, double& v) {
-                u = std::round(u * 255) / 255, v = std::round(v * 255) / 255;
-              })),
-      values_of_channel("channel_nan", "one value is NaN", "finite",
-                        [](A, std::vector<double>& all) {
-                          all[all.size() / 2] = std::numeric_limits<double>::quiet_NaN();
-                        }),
-      values_of_channel(
-          "channel_infinite", "one value is infinite", "finite",
-          [](A, std::vector<double>& all) { all.back() = std::numeric_limits<double>::infinity(); }),
-      values_of_channel("channel_unwritten", "the last value is not written", "written",
-                        [](A, std::vector<double>& all) { std::memset(&all.back(), 0xFF, sizeof(double)); }),
-      values_of_channel("channel_moved_value", "one value is off by a thousandth", "channel-positions",
-                        [](A, std::vector<double>& all) { all[0] += 1e-3; }),
-      values_of_channel("channel_turned_corners", "the corners of each triangle have the values of the next",
-                        "channel-positions",
-                        [](A, std::vector<double>& all) {
-                          for (std::size_t t = 0; t + 6 <= all.size(); t += 6)
-                            std::rotate(&all[t], &all[t + 2], &all[t] + 6);
-                        }),
-      values_of_channel(
-          "channel_of_next_triangle", "each triangle has the values of the next", "channel-positions",
-          [](A, std::vector<double>& all) { std::rotate(all.begin(), all.begin() + 6, all.end()); }),
-      values_of_channel("channel_by_component", "all first components come first", "channel-positions",
-                        [](A, std::vector<double>& all) {
-                          const std::vector<double> before = all;
-                          for (std::size_t i = 0; i < all.size(); i += 2) {
-                            all[i / 2] = before[i];
-                            all[(all.size() + i) / 2] = before[i + 1];
-                          }
-                        }),
+      values_of("channel_first_component", "the second component is 0", [](double&, double& v) { v = 0; }),
+      values_of("channel_swapped_components", "the components are exchanged",
+                [](double& u, double& v) { std::swap(u, v); }),
+      values_of("channel_upside_down", "the second component is counted from the top",
+                [](double&, double& v) { v = 1 - v; }),
+      values_of("channel_wrapped", "values are wrapped into 0 to 1",
+                [](double& u, double& v) { u -= std::floor(u), v -= std::floor(v); }),
+      values_of("channel_clamped", "values are clamped to 0 to 1",
+                [](double& u, double& v) { u = std::clamp(u, 0., 1.), v = std::clamp(v, 0., 1.); }),
+      values_of("channel_of_a_byte", "values have eight bits",
+                [](double& u, double& v) { u = std::round(u * 255) / 255, v = std::round(v * 255) / 255; }),
+      delivered_values("channel_nan", "one value is NaN", "finite",
+                       [](All all) { all[all.size() / 2] = std::numeric_limits<double>::quiet_NaN(); }),
+      delivered_values("channel_infinite", "one value is infinite", "finite",
+                       [](All all) { all.back() = std::numeric_limits<double>::infinity(); }),
+      delivered_values("channel_unwritten", "the last value is not written", "written",
+                       [](All all) { std::memset(&all.back(), 0xFF, sizeof(double)); }),
+      delivered_values("channel_moved_value", "one value is off by a thousandth", "channel-positions",
+                       [](All all) { all[0] += 1e-3; }),
+      delivered_values("channel_turned_corners", "the corners of each triangle have the values of the next",
+                       "channel-positions",
+                       [](All all) {
+                         for (std::size_t t = 0; t + 6 <= all.size(); t += 6)
+                           std::rotate(&all[t], &all[t + 2], &all[t] + 6);
+                       }),
+      delivered_values("channel_of_next_triangle", "each triangle has the values of the next",
+                       "channel-positions",
+                       [](All all) { std::rotate(all.begin(), all.begin() + 6, all.end()); }),
+      delivered_values("channel_by_component", "all first components come first", "channel-positions",
+                       [](All all) {
+                         const std::vector<double> before = all;
+                         for (std::size_t i = 0; i < all.size(); i += 2) {
+                           all[i / 2] = before[i];
+                           all[(all.size() + i) / 2] = before[i + 1];
+                         }
+                       }),
       of_channels(deliver("channel_ulp", "a value that triangles share is one ulp off in one of them",
                           "channel-shared",
                           [](A, D out) {
@@ -271,13 +249,11 @@ Change channels(const char* name, const char* description, std::function<void(Me
   });
   c.on = Change::On::kBoth;
   c.shows = [what](A a) {
-    data::ControlMesh other = a.mesh;
-    if (!has_two(other)) return false;
-    for (const Channel& channel : other.channels)
-      if (!reference::has_exact_cut(a.mesh, channel, channel.rule.value_or(data::kUsualChannelRule)))
-        return false;
-    what(other);
-    return !(other == a.mesh);
+    const auto& all = a.mesh.channels;
+    return has_two(a.mesh) && changes(a, what) &&
+           std::all_of(all.begin(), all.end(), [&](const Channel& one) {
+             return reference::has_exact_cut(a.mesh, one, one.rule.value_or(data::kUsualChannelRule));
+           });
   };
   return c;
 }
@@ -315,9 +291,9 @@ std::vector<Change> by_requests() {
     }));
   };
   const auto request = [](const char* name, const char* description, std::function<bool(A)> when) {
-    return values_of_channel(name, description, "determinism", [when](A a, std::vector<double>& all) {
-      if (when(a)) all.back() += 1e-3;
-    });
+    return of_channels(deliver(name, description, "determinism", [when](A a, D out) {
+      if (when(a)) out.channel_values.back() += 1e-3;
+    }));
   };
   return {
       forgets("channel_remembers_values", "the values are those of an earlier mesh with the same indices",
@@ -336,19 +312,16 @@ std::vector<Change> by_requests() {
 std::vector<Change> by_places() {
   using enum ChannelRule;
   return {
-      on_faces("channel_linear_at_extraordinary", "faces at extraordinary vertices are linear", kAll,
-               extraordinary),
-      on_faces("channel_linear_on_boundary", "faces on the boundary are linear", kAll, on_boundary),
-      on_faces(
-          "channel_linear_at_seams", "faces at seams are linear", kAll,
-          [](A a, std::size_t f) { return any_corner(a, f, [&](std::int32_t v) { return seam_at(a, v); }); }),
+      on_faces_at("channel_linear_at_extraordinary", "faces at extraordinary vertices are linear", kAll,
+                  [](A a, std::int32_t v) { return a.inside(v) && !is_regular(a, v); }),
+      on_faces_at("channel_linear_on_boundary", "faces on the boundary are linear", kAll, on_boundary),
+      on_faces_at("channel_linear_at_seams", "faces at seams are linear", kAll, seam_at),
       on_faces("channel_linear_last_face", "the last face is linear", kAll,
                [](A a, std::size_t f) { return f + 1 == a.mesh.faces.size(); }),
-      on_faces(
-          "channel_smooth_at_seams", "seams are smooth at faces beside them, whatever was asked for", kNone,
-          [](A a, std::size_t f) { return any_corner(a, f, [&](std::int32_t v) { return seam_at(a, v); }); }),
-      on_faces("channel_held_on_boundary", "boundaries are held where they are not", kBoundaries,
-               on_boundary),
+      on_faces_at("channel_smooth_at_seams", "seams are smooth at faces beside them, whatever was asked for",
+                  kNone, seam_at),
+      on_faces_at("channel_held_on_boundary", "boundaries are held where they are not", kBoundaries,
+                  on_boundary),
       on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
                                       [](A a, std::size_t f) { return a.is_polygon(f); })),
       tags_of_channel("channel_without_tags", "channels know no sharp edges and vertices",

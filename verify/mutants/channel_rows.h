@@ -45,19 +45,31 @@ inline Change of_channels(Change c, std::function<bool(A)> shows = {}) {
   return c;
 }
 
-/// Each corner has the index that `index` says, of a face and a corner of it.
-inline void reindex(A a, Uv uv, const std::function<std::int32_t(std::size_t, std::size_t)>& index) {
+/// What is delivered for the mesh with something changed, and whether that is another mesh.
+inline Delivered again(A a, const std::function<void(Mesh)>& change) {
+  data::ControlMesh other = a.mesh;
+  change(other);
+  return a.again(other, {a.depth.begin(), a.depth.end()});
+}
+inline bool changes(A a, const std::function<void(Mesh)>& change) {
+  data::ControlMesh other = a.mesh;
+  change(other);
+  return !(other == a.mesh);
+}
+
+/// Each corner has the index that `index` says, of the channel as it was, a face and a corner of it.
+inline void reindex(
+    A a, Uv uv, const std::function<std::int32_t(const data::Channel&, std::size_t, std::size_t)>& index) {
+  const data::Channel before = uv;
   const data::Faces& faces = a.mesh.faces;
-  std::vector<std::int32_t> corners;
   for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < faces[f].size(); ++k) corners.push_back(index(f, k));
-  uv.corners = std::move(corners);
+    for (std::size_t k = 0; k < faces[f].size(); ++k)
+      uv.corners[faces.first_corner(f) + k] = index(before, f, k);
 }
 /// The index of the first face at the vertex, for all of them.
 inline void join_seams(A a, Uv uv, const std::function<bool(std::int32_t)>& at) {
   std::vector<std::int32_t> first(a.mesh.positions.size(), -1);
-  const data::Channel before = uv;
-  reindex(a, uv, [&](std::size_t f, std::size_t k) {
+  reindex(a, uv, [&](const data::Channel& before, std::size_t f, std::size_t k) {
     const std::int32_t v = a.mesh.faces[f][k], own = before.corners[a.mesh.faces.first_corner(f) + k];
     if (!at(v)) return own;
     std::int32_t& known = first[static_cast<std::size_t>(v)];

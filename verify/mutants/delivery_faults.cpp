@@ -53,42 +53,34 @@ std::size_t split_off(D out) {
   return v;
 }
 
-// Of each vertex at a control vertex: visit(vertex, control vertex).
-template <class Visit>
-void at_control_vertices(A a, const Delivered& out, Visit visit) {
-  for (std::size_t v = 0; v < out.positions.size(); ++v)
-    if (const std::int32_t at = a.control_vertex(out.place(v)); at >= 0) visit(v, at);
-}
-// Of each other one: visit(vertex).
-template <class Visit>
-void elsewhere(A a, const Delivered& out, Visit visit) {
-  for (std::size_t v = 0; v < out.positions.size(); ++v)
-    if (a.control_vertex(out.place(v)) < 0) visit(v);
-}
-
 // Edges in the order in which the faces name them; points inside those beyond the first `room` lie half way
 // between its ends.
-void forget_edges(A a, std::size_t room, D out) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> edges;
-  const auto& faces = a.mesh.faces;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    for (std::size_t k = 0; k < 3; ++k)
-      edges.emplace(std::minmax(std::int32_t{faces[f][k]}, std::int32_t{faces[f][(k + 1) % 3]}),
-                    edges.size());
-  elsewhere(a, out, [&](std::size_t v) {
-    const Place p = out.place(v);
-    const auto at = a.side_of(p);
-    if (!at) return;
-    const auto t = faces[a.face_of(p)];
-    const std::int32_t from = t[at->side], to = t[static_cast<std::size_t>(at->side + 1) % 3];
-    if (edges.at(std::minmax(from, to)) < room) return;
-    for (std::size_t c = 0; c < 3; ++c)
-      out.positions[v][c] = (a.mesh.positions[from][c] + a.mesh.positions[to][c]) / 2;
+Change forgotten_edges(const char* name, const char* description, std::function<std::size_t(A)> room) {
+  return deliver(name, description, "positions", [room](A a, D out) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> edges;
+    const auto& faces = a.mesh.faces;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (std::size_t k = 0; k < 3; ++k)
+        edges.emplace(std::minmax(std::int32_t{faces[f][k]}, std::int32_t{faces[f][(k + 1) % 3]}),
+                      edges.size());
+    for (std::size_t v = 0; v < out.positions.size(); ++v) {
+      const Place p = out.place(v);
+      const auto at = a.side_of(p);
+      if (!at || at->along == 0) continue;
+      const auto t = faces[a.face_of(p)];
+      const std::int32_t from = t[at->side], to = t[static_cast<std::size_t>(at->side + 1) % 3];
+      if (edges.at(std::minmax(from, to)) < room(a)) continue;
+      for (std::size_t c = 0; c < 3; ++c)
+        out.positions[v][c] = (a.mesh.positions[from][c] + a.mesh.positions[to][c]) / 2;
+    }
   });
 }
 
-int component_of(A a, const Delivered& out, std::size_t v) {
-  return a.component[a.mesh.faces[a.face_of(out.place(v))][0]];
+int component(const At& at) {
+  return at.a.component[at.a.mesh.faces[at.face()][0]];
+}
+void too_far_out(Vector& p) {
+  each(p, [](double x) { return x * 1.00001; });
 }
 Change memory(const char* name, const char* description, bool Delivered::*what) {
   return deliver(name, description, "written", [what](A, D out) { out.*what = true; });
@@ -114,43 +106,28 @@ std::vector<Change> of_all_meshes() {
               }),
       deliver("unwritten_triangle_face", "the control face of one triangle is left unwritten", "written",
               [](A, D out) { out.triangle_face[some_triangle(out)] = -1; }),
-      deliver("wrong_limit_mask",
-              "points at control vertices lie a hundredth of the way to the control vertex", "positions",
-              [](A a, D out) {
-                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-                  for (std::size_t c = 0; c < 3; ++c)
-                    out.positions[v][c] += 0.01 * (a.mesh.positions[at][c] - out.positions[v][c]);
-                });
-              }),
-      deliver("wrong_edge_mask", "points that are not control vertices are 1e-5 too far from the origin",
-              "positions",
-              [](A a, D out) {
-                elsewhere(a, out, [&](std::size_t v) {
-                  each(out.positions[v], [](double x) { return x * 1.00001; });
-                });
-              }),
-      deliver("unmoved_vertices", "points at control vertices are the control vertices", "refined-positions",
-              [](A a, D out) {
-                at_control_vertices(
-                    a, out, [&](std::size_t v, std::int32_t at) { out.positions[v] = a.mesh.positions[at]; });
-              }),
-      deliver("snapped_positions", "positions are multiples of a fiftieth: small triangles collapse",
-              "positions",
-              [](A, D out) {
-                for (Vector& p : out.positions) each(p, [](double x) { return std::round(x * 50) / 50; });
-              }),
-      deliver("flipped_normals", "all normals point inside", "normals",
-              [](A, D out) {
-                some_normal(out);
-                for (Vector& n : out.normals) each(n, std::negate<>());
-              }),
+      vertex("wrong_limit_mask",
+             "points at control vertices lie a hundredth of the way to the control vertex", "positions",
+             [](const At& at) {
+               if (const std::int32_t c = at.control_vertex(); c >= 0)
+                 add(at.position(), difference(at.a.mesh.positions[c], at.position()), 0.01);
+             }),
+      vertex("wrong_edge_mask", "points that are not control vertices are 1e-5 too far from the origin",
+             "positions",
+             [](const At& at) {
+               if (at.control_vertex() < 0) too_far_out(at.position());
+             }),
+      vertex("unmoved_vertices", "points at control vertices are the control vertices", "refined-positions",
+             [](const At& at) {
+               if (const std::int32_t c = at.control_vertex(); c >= 0) at.position() = at.a.mesh.positions[c];
+             }),
+      positions("snapped_positions", "positions are multiples of a fiftieth: small triangles collapse",
+                "positions", [](A, double x) { return std::round(x * 50) / 50; }),
+      normals("flipped_normals", "all normals point inside", "normals", negate),
       deliver("one_flipped_normal", "one normal points inside", "normals",
-              [](A, D out) { each(some_normal(out), std::negate<>()); }),
-      deliver("long_normals", "normals have length 2", "normal-length",
-              [](A, D out) {
-                some_normal(out);
-                for (Vector& n : out.normals) each(n, [](double x) { return x * 2; });
-              }),
+              [](A, D out) { negate(some_normal(out)); }),
+      normals("long_normals", "normals have length 2", "normal-length",
+              [](Vector& n) { each(n, [](double x) { return x * 2; }); }),
 
       // Which point is which.
       deliver("shifted_provenance", "each vertex has the provenance of the next", "positions",
@@ -236,34 +213,33 @@ std::vector<Change> of_all_meshes() {
 // Tables too short, assumptions about the shape, neighbourhoods that a search over many meshes has to find.
 std::vector<Change> of_some_meshes() {
   return {
-      deliver("edges_of_genus_0",
-              "a table of 3 V - 6 edges, as a closed mesh of genus 0 has: others are not smoothed",
-              "positions", [](A a, D out) { forget_edges(a, 3 * a.mesh.positions.size() - 6, out); }),
-      deliver("edges_of_genus_1",
-              "a table of 3 V edges, as a closed mesh of genus 1 has: others are not smoothed", "positions",
-              [](A a, D out) { forget_edges(a, 3 * a.mesh.positions.size(), out); }),
-      deliver("second_component", "faces that are not reached from the first one keep their normals unturned",
-              "normals",
-              [](A a, D out) {
-                for (std::size_t v = 0; v < out.normals.size(); ++v)
-                  if (component_of(a, out, v) > 0) each(out.normals[v], std::negate<>());
-              }),
-      deliver("third_component", "from the third component on, points are 1e-5 too far from the origin",
-              "positions",
-              [](A a, D out) {
-                for (std::size_t v = 0; v < out.positions.size(); ++v)
-                  if (component_of(a, out, v) > 1)
-                    each(out.positions[v], [](double x) { return x * 1.00001; });
-              }),
+      forgotten_edges("edges_of_genus_0",
+                      "a table of 3 V - 6 edges, as a closed mesh of genus 0 has: others are not smoothed",
+                      [](A a) { return 3 * a.mesh.positions.size() - 6; }),
+      forgotten_edges("edges_of_genus_1",
+                      "a table of 3 V edges, as a closed mesh of genus 1 has: others are not smoothed",
+                      [](A a) { return 3 * a.mesh.positions.size(); }),
+      vertex("second_component", "faces that are not reached from the first one keep their normals unturned",
+             "normals",
+             [](const At& at) {
+               if (component(at) > 0 && !at.out.normals.empty()) negate(at.normal());
+             }),
+      vertex("third_component", "from the third component on, points are 1e-5 too far from the origin",
+             "positions",
+             [](const At& at) {
+               if (component(at) > 1) too_far_out(at.position());
+             }),
       deliver("welded_components",
               "control vertices at one place, of whatever component, get one limit point", "positions",
               [](A a, D out) {
                 std::map<Vector, std::pair<int, std::size_t>> known;
-                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
+                for (std::size_t v = 0; v < out.positions.size(); ++v) {
+                  const std::int32_t at = a.control_vertex(out.place(v));
+                  if (at < 0) continue;
                   const auto [first, is_new] = known.try_emplace(a.mesh.positions[at], a.component[at], v);
                   if (!is_new && first->second.first != a.component[at])
                     out.positions[v] = Vector(out.positions[first->second.second]);
-                });
+                }
               }),
       deliver("flat_box", "brought to the unit cube axis by axis and back: 0 / 0 where the box is flat",
               "finite",
@@ -276,15 +252,13 @@ std::vector<Change> of_some_meshes() {
                     for (Vector& p : out.positions) p[c] = kNan;
                 }
               }),
-      deliver("edge_without_length", "divides by the lengths of edges: 0 / 0 at both ends", "finite",
-              [](A a, D out) {
-                std::vector<bool> spoilt(a.mesh.positions.size(), false);
-                for (const reference::Edge& e : a.topology.edges())
-                  if (a.mesh.positions[e.a] == a.mesh.positions[e.b]) spoilt[e.a] = spoilt[e.b] = true;
-                at_control_vertices(a, out, [&](std::size_t v, std::int32_t at) {
-                  if (spoilt[at]) out.positions[v].fill(kNan);
-                });
-              }),
+      vertex("edge_without_length", "divides by the lengths of edges: 0 / 0 at both ends", "finite",
+             [](const At& at) {
+               const std::int32_t c = at.control_vertex();
+               if (c < 0) return;
+               for (const std::int32_t r : at.a.topology.ring(c))
+                 if (at.a.mesh.positions[r] == at.a.mesh.positions[c]) at.position().fill(kNan);
+             }),
       {.name = "indices_of_16_bits",
        .description = "control points are fetched by the lower 16 bits of their number",
        .check = "positions",

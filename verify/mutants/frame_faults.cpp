@@ -160,12 +160,11 @@ std::vector<Change> faults_of_frames() {
               throw SubjectError(LC_NOT_SUPPORTED, "all faces must have one depth");
           }),
       vertex("crack_at_depth_steps", "one ulp between faces of different depths", "shared-positions",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               const auto at = a.side_of(p);
-               if (!at || at->along == 0) return;
-               const int other = a.depth_beyond(a.face_of(p), static_cast<std::size_t>(at->side));
-               if (other >= 0 && other < a.depth[a.face_of(p)]) out.move_up(v);
+             [](const At& at) {
+               const auto side = at.side();
+               if (!side || side->along == 0) return;
+               const int other = at.a.depth_beyond(at.face(), static_cast<std::size_t>(side->side));
+               if (other >= 0 && other < at.a.depth[at.face()]) at.out.move_up(at.v);
              }),
       deliver("chords_at_depth_steps", "the deeper face's border points lie on the chords of its neighbour",
               "positions",
@@ -190,26 +189,24 @@ std::vector<Change> faults_of_frames() {
                       static_cast<double>(at->along - from) / static_cast<double>(step));
                 }
               }),
-      vertex("last_face", "points inside the last face are 1e-6 off", "positions",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               if (inside_face(a, p) && a.face_of(p) + 1 == a.mesh.faces.size()) outwards(a, out, v, 1e-6);
-             }),
+      outwards("last_face", "points inside the last face are 1e-6 off", "positions",
+               [](const At& at) {
+                 return at.inside_face() && at.face() + 1 == at.a.mesh.faces.size() ? 1e-6 : 0;
+               }),
       vertex("faces_sorted", "faces begun at their lowest vertex, provenance as if they were not",
              "positions",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               const auto c = a.mesh.faces[a.face_of(p)];
+             [](const At& at) {
+               const auto c = at.a.mesh.faces[at.face()];
                const auto lowest = static_cast<int>(std::min_element(c.begin(), c.end()) - c.begin());
-               const auto q = a.domain(a.face_of(p)).moved(point_of(p), a.steps(p), {(3 - lowest) % 3});
-               out.provenance[v].i = static_cast<std::uint32_t>(q.i);
-               out.provenance[v].j = static_cast<std::uint32_t>(q.j);
+               const auto q = at.domain().moved(point_of(at.p), at.steps(), {(3 - lowest) % 3});
+               at.out.provenance[at.v].i = static_cast<std::uint32_t>(q.i);
+               at.out.provenance[at.v].j = static_cast<std::uint32_t>(q.j);
              }),
       vertex("edges_sorted", "points of an edge counted from its lower vertex, from both sides",
              "shared-positions",
-             [](A a, D out, std::size_t v) {
-               lc_provenance& p = out.provenance[v];
-               const auto c = a.mesh.faces[a.face_of(out.place(v))];
+             [](const At& at) {
+               lc_provenance& p = at.out.provenance[at.v];
+               const auto c = at.a.mesh.faces[at.face()];
                if (p.j == 0 && c[0] > c[1]) p.i = p.denominator - p.i;
              }),
       deliver("normals_forgotten", "declares normals and delivers none", "written",

@@ -19,7 +19,6 @@
 
 #include "data/splitmix64.h"
 #include "verify/mutants/change_rows.h"
-#include "verify/subject/control_mesh.h"
 
 namespace limitcheck::verify {
 

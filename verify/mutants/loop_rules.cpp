@@ -4,18 +4,19 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
-#include "reference/loop/dart.h"
-#include "reference/loop/masks.h"
-#include "reference/mesh/topology.h"
-#include "reference/point/normal.h"
+#include "reference/loop/refine.h"
+#include "reference/loop/vertex_limit.h"
 #include "verify/mutants/mutant_rules.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using reference::Edge, reference::Topology, reference::Weights;
+using reference::Edge, reference::Sector, reference::Topology, reference::Weights;
 using V = MutantRules::V;
+using Tangents = reference::Tangents<double>;
 
 double turn(double fraction) {
   return 2 * std::numbers::pi * fraction;
@@ -33,149 +34,135 @@ double length(const V& p) {
 class LoopRules : public MutantRules {
  public:
   LoopRules(std::string_view mutation, Weights weights, bool refined)
-      : MutantRules(mutation), weights_(weights), refined_(refined) {}
+      : MutantRules(mutation),
+        weights_(is("warren_declared") ? Weights::kLoop : weights),
+        limit_weights_(is("warren_limit_of_loop") ? Weights::kLoop : weights_),
+        refined_(refined) {}
 
-  Points refine(const Topology& topology, const Points& points, const MutantTags& tags, int,
-                int depth) const override {
-    Points out;
-    out.reserve(points.size() + topology.edges().size());
+  Points refine(const Topology& topology, const Points& points, int, int depth) const override {
+    Points out = reference::refine_once<double>(topology, points, weights_);
     for (std::size_t v = 0; v < points.size(); ++v)
-      out.push_back(vertex_point(topology, points, static_cast<std::int32_t>(v)));
-    for (const Edge& e : topology.edges())
-      out.push_back(depth == 1 && is("midpoints_at_depth_1") ? (points[e.a] + points[e.b]) * .5
-                                                             : edge_point(topology, points, e));
-    if (!tags.none()) tags.sharpen(topology, points, out);
+      out[v] = vertex_point(topology, points, static_cast<std::int32_t>(v), out[v]);
+    for (std::size_t k = 0; k < topology.edges().size(); ++k) {
+      V& p = out[points.size() + k];
+      const Edge& e = topology.edges()[k];
+      p = depth == 1 && is("midpoints_at_depth_1") ? (points[e.a] + points[e.b]) * .5
+                                                   : edge_point(topology, points, e, p);
+    }
     return out;
   }
-  V limit(const MutantRing& ring, int depth) const override;
-  V normal(const MutantRing& ring) const override;
-  V corner_normal(const MutantRing& ring) const override {
-    return ring.closed ? normal(ring) : unit_or_up(cross(ring.e.front() - ring.c, ring.e.back() - ring.c));
-  }
-  V dart_limit(const MutantRing& ring) const override {
-    const auto n = static_cast<int>(ring.e.size());
-    return ring.c +
-           reference::weighted<double>(reference::dart_limit_weights<double>(n, weights_), ring.c, ring.e);
-  }
-  V dart_normal(const MutantRing& ring) const override {
-    std::vector<V> cut = ring.e;
-    cut.push_back(V(cut.front()));
-    const auto t = reference::dart_tangents<double>(ring.c, cut, weights_);
-    return unit_or_up(cross(t.first, t.second));
+  Limit limit(const MutantRing& ring, int depth) const override {
+    const auto right = reference::vertex_limit<double>(ring.point, ring.edge_span(), ring.on_boundary,
+                                                       limit_weights_, ring.state);
+    return {position(ring, depth, right.position), normal(ring, right.tangents)};
   }
 
  private:
-  double alpha(int n) const;
-  V vertex_point(const Topology& topology, const Points& points, std::int32_t v) const;
-  V edge_point(const Topology& topology, const Points& points, const Edge& edge) const;
-  reference::Tangents<double> tangents(const MutantRing& ring) const;
-  bool taken_as_vanishing(const reference::Tangents<double>& t, const V& p) const;
+  // `right` where nothing is changed.
+  V vertex_point(const Topology& topology, const Points& points, std::int32_t v, const V& right) const;
+  V edge_point(const Topology& topology, const Points& points, const Edge& edge, const V& right) const;
+  V position(const MutantRing& ring, int depth, const V& right) const;
+  V normal(const MutantRing& ring, const Tangents& right) const;
+  Tangents tangents(const MutantRing& ring, const Tangents& right) const;
+  // Of all neighbours together, where it is another.
+  std::optional<double> alpha(int n) const;
+  bool taken_as_vanishing(const Tangents& t, const V& p) const;
 
-  Weights weights_;
+  Weights weights_, limit_weights_;
   bool refined_;
 };
 
-double LoopRules::alpha(int n) const {
+std::optional<double> LoopRules::alpha(int n) const {
   const double s = 3 + 2 * std::cos(turn((is("half_angle") ? .5 : 1.) / n));
   if (is("warren_weights") && n > 3) return 3. / 8;
   if (is("square_forgotten")) return 5. / 8 - s / 64;
   if (is("half_angle")) return 5. / 8 - s * s / 64;
   if (is("valence_one_less") && n > 3) return reference::loop_a<double>(n - 1);
-  if (is("vertices_stay")) return 0;
-  if (is("weights_of_16")) n = std::min(n, 16);
-  if (is("weights_of_32")) n = std::min(n, 32);
-  if (is("weights_below_64") && n == 64) return 0;
+  if (is("weights_of_16")) return reference::loop_a<double>(std::min(n, 16));
+  if (is("weights_of_32")) return reference::loop_a<double>(std::min(n, 32));
   if (is("weight_at_infinity") && n >= 20) return 15. / 64;
-  if (is("valence_in_8_bits") && n % 256 == 0) return 0;
-  const Weights weights = is("warren_declared") ? Weights::kLoop : weights_;
-  return reference::ring_weight<double>(n, weights) + (n == 5 && is("weight_1e-6_at_valence_5") ? 1e-6 : 0);
+  if (is("vertices_stay") || (is("weights_below_64") && n == 64) || (is("valence_in_8_bits") && n % 256 == 0))
+    return 0;
+  if (is("weight_1e-6_at_valence_5") && n == 5) return reference::loop_a<double>(n) + 1e-6;
+  return std::nullopt;
 }
 
-V LoopRules::vertex_point(const Topology& topology, const Points& points, std::int32_t v) const {
-  const MutantRing ring = MutantRing::of(topology, points, v);
-  const V& p = ring.c;
-  if (ring.e.empty()) return p;
-  if (!ring.closed) {
-    const double end = is("boundary_vertex_5_8") ? 3. / 16 : 1. / 8;
-    return p + ((ring.e.front() - p) + (ring.e.back() - p)) * end;
-  }
+V LoopRules::vertex_point(const Topology& topology, const Points& points, std::int32_t v,
+                          const V& right) const {
+  const Sector sector = topology.sector(v);
+  const V& p = points[v];
+  const auto difference = [&](std::int32_t r) { return points[r] - p; };
+  if (sector.faces.empty()) return right;
+  const V first = difference(sector.neighbours.front()), last = difference(sector.neighbours.back());
+  if (!sector.closed) return is("boundary_vertex_5_8") ? p + (first + last) * (3. / 16) : right;
   V sum{};
-  for (const V& r : ring.e) sum += r - p;
-  if (is("ring_off_by_one")) sum += ring.e.front() - ring.e.back();
-  if (is("valence_3_pairs") && ring.e.size() == 3)
-    for (const std::int32_t r : topology.ring(v))
-      if (!topology.on_boundary(r) && topology.ring(r).size() == 3) sum += points[r] - p;
-  const auto n = static_cast<int>(ring.e.size());
-  return p + sum * (alpha(n) / n);
+  if (is("ring_off_by_one")) sum += first - last;
+  if (is("valence_3_pairs") && sector.faces.size() == 3)
+    for (const std::int32_t r : sector.neighbours)
+      if (!topology.on_boundary(r) && topology.ring(r).size() == 3) sum += difference(r);
+  const auto n = static_cast<int>(sector.faces.size());
+  const double a = reference::ring_weight<double>(n, weights_);
+  if (const auto other = alpha(n)) return p + (right - p) * (*other / a);
+  return right + sum * (a / n);
 }
 
-V LoopRules::edge_point(const Topology& topology, const Points& points, const Edge& e) const {
-  const auto at = [&](std::int32_t v) { return points[v]; };
-  const V a = at(e.a), b = at(e.b);
-  const std::int32_t left = opposite(topology, e, e.left_face);
-  if (e.on_boundary()) {
-    if (is("boundary_edge_flap")) return (a + b) * (3. / 8) + at(left) * .25;
-    return (a + b) * .5;
-  }
-  const std::int32_t right = opposite(topology, e, e.right_face);
-  V c = at(left), d = at(right);
+V LoopRules::edge_point(const Topology& topology, const Points& points, const Edge& e, const V& right) const {
+  const V &a = points[e.a], &b = points[e.b];
+  const std::int32_t left = opposite(topology, e, e.left_face), other = opposite(topology, e, e.right_face);
+  if (e.on_boundary()) return is("boundary_edge_flap") ? (a + b) * (3. / 8) + points[left] * .25 : right;
   if (is("midpoints")) return (a + b) * .5;
+  const V &c = points[left], &d = points[other];
   if (is("one_flap")) return (a + b) * (3. / 8) + c * .25;
   if (is("indices_modulo_n")) {
     const std::int32_t last = topology.ring(e.a).back();  // v_n, seen from v_0 = a
-    if (last == left) c = a;
-    if (last == right) d = a;
+    return reference::interior_edge_point(a, b, last == left ? a : c, last == other ? a : d);
   }
-  V p = reference::interior_edge_point(a, b, c, d);
-  if (is("edge_weight_1e-6")) p += (a - b) * 1e-6;
-  if (is("lower_end")) p += (e.a < e.b ? a - b : b - a) * 1e-9;
-  if (is("left_flap")) p += (c - d) * 1e-9;
+  if (is("edge_weight_1e-6")) return right + (a - b) * 1e-6;
+  if (is("lower_end")) return right + (e.a < e.b ? a - b : b - a) * 1e-9;
+  if (is("left_flap")) return right + (c - d) * 1e-9;
   if (is("biermann_edges") && topology.on_boundary(e.a) != topology.on_boundary(e.b)) {
     const bool first = topology.on_boundary(e.a);
     const auto faces = static_cast<double>(topology.ring(first ? e.a : e.b).size()) - 1;
     const double g = .5 - std::cos(turn(.5 / faces)) / 4;
-    if (faces != 3) p = (first ? a : b) * (.75 - g) + (first ? b : a) * g + (c + d) * (1. / 8);
+    if (faces != 3) return (first ? a : b) * (.75 - g) + (first ? b : a) * g + (c + d) * (1. / 8);
   }
-  return p;
+  return right;
 }
 
-V LoopRules::limit(const MutantRing& ring, int depth) const {
-  const V& p = ring.c;
-  const std::size_t count = ring.e.size();
+V LoopRules::position(const MutantRing& ring, int depth, const V& right) const {
+  const V& p = ring.point;
+  const auto& e = ring.edges;
+  const std::size_t count = e.size();
   if (refined_ || is("no_limit") || (is("no_limit_at_depth_0") && depth == 0) ||
       (is("no_limit_from_depth_5") && depth >= 5) || (is("valence_in_8_bits") && count == 256))
     return p;
-  if (!ring.closed) {
-    if (is("boundary_limit_hoppe")) return p * .6 + (ring.e.front() + ring.e.back()) * .2;
-    if (is("corners_stay") && count == 2) return p;
-    return reference::boundary_limit<double>(p, ring.e.front(), ring.e.back());
+  if (ring.state != reference::VertexState::kOrdinary) return right;
+  if (ring.on_boundary) {
+    if (is("boundary_limit_hoppe")) return p * .6 + (e.front() + e.back()) * .2;
+    return is("corners_stay") && count == 2 ? p : right;
   }
   const auto n = static_cast<double>(count);
   const double a = reference::loop_a<double>(static_cast<int>(count));
   if (is("limits_in_float")) {
     V sum{};
-    for (const V& r : ring.e) sum = in_float(sum + in_float(r - p));
+    for (const V& r : e) sum = in_float(sum + in_float(r - p));
     return p + sum * (8 * a / (n * (3 + 8 * a)));
   }
   double weight = 3 * n / (8 * a);
-  if (is("limit_mask_of_six")) {
+  if (is("limit_mask_of_six"))
     weight = n;
-  } else if (is("limit_weight_misread")) {
+  else if (is("limit_weight_misread"))
     weight = 3 * n / 8 * a;
-  } else if (is("limit_weight_at_valence_3") && count == 3) {
+  else if (is("limit_weight_at_valence_3") && count == 3)
     weight *= 1.1;
-  } else if (is("limit_weights_1e-4")) {
+  else if (is("limit_weights_1e-4"))
     weight *= 1.0001;
-  } else {
-    const bool loop = is("warren_declared") || is("warren_limit_of_loop");
-    return reference::interior_limit<double>(p, ring.e, loop ? Weights::kLoop : weights_);
-  }
-  V sum = p * weight;
-  for (const V& r : ring.e) sum += r;
-  return sum * (1 / (weight + n));
+  else
+    return right;
+  return std::accumulate(e.begin(), e.end(), p * weight) * (1 / (weight + n));
 }
 
-bool LoopRules::taken_as_vanishing(const reference::Tangents<double>& t, const V& p) const {
+bool LoopRules::taken_as_vanishing(const Tangents& t, const V& p) const {
   const double a = length(t.first), b = length(t.second), sine = length(cross(t.first, t.second));
   const auto square = static_cast<float>(a) * static_cast<float>(a);
   return (is("fixed_epsilon") && sine < 1e-15) || (is("epsilon_of_coordinates") && a < 1e-4 * length(p)) ||
@@ -184,22 +171,21 @@ bool LoopRules::taken_as_vanishing(const reference::Tangents<double>& t, const V
 }
 
 // Directions, the first crossed with the second outward, and what mutants make of them.
-reference::Tangents<double> LoopRules::tangents(const MutantRing& ring) const {
-  const V& p = ring.c;
-  const std::vector<V>& e = ring.e;
+Tangents LoopRules::tangents(const MutantRing& ring, const Tangents& right) const {
+  const V& p = ring.point;
+  const auto& e = ring.edges;
   const std::size_t n = e.size();
-  auto t =
-      ring.closed ? reference::interior_tangents<double>(p, e) : reference::boundary_tangents<double>(p, e);
-  if (!ring.closed && n > 4 && is("boundary_tangent_trap")) {
+  Tangents t = right;
+  if (ring.on_boundary && n > 4 && is("boundary_tangent_trap")) {
     const double theta = std::numbers::pi / static_cast<double>(n - 1);
     t.second = (e.front() + e.back()) * (std::sin(theta) / (2 * std::cos(theta) - 2));
     for (std::size_t i = 1; i + 1 < n; ++i) t.second += e[i] * std::sin(static_cast<double>(i) * theta);
   }
-  if (!ring.closed && is("boundary_tangent_mean")) {
+  if (ring.on_boundary && is("boundary_tangent_mean")) {
     t.second = {};
     for (const V& r : e) t.second += r - p;
   }
-  if (ring.closed && (is("sines_of_n_plus_1") || is("divided_tangents"))) {
+  if (!ring.on_boundary && (is("sines_of_n_plus_1") || is("divided_tangents"))) {
     const auto period = static_cast<double>(n + (is("sines_of_n_plus_1") ? 1 : 0));
     t = {};
     double sum1 = 0, sum2 = 0;
@@ -227,11 +213,11 @@ reference::Tangents<double> LoopRules::tangents(const MutantRing& ring) const {
   return t;
 }
 
-V LoopRules::normal(const MutantRing& ring) const {
-  if (is("first_facet_normal")) return reference::unit(cross(ring.e[0] - ring.c, ring.e[1] - ring.c));
-  const V facets = ring.facets();
-  if (is("mean_facet_normals")) return reference::unit(facets);
-  const reference::Tangents<double> t = tangents(ring);
+V LoopRules::normal(const MutantRing& ring, const Tangents& right) const {
+  if (is("first_facet_normal"))
+    return reference::unit(cross(ring.edges[0] - ring.point, ring.edges[1] - ring.point));
+  if (is("mean_facet_normals")) return reference::unit(facets(ring));
+  const Tangents t = tangents(ring, right);
   const V across = cross(t.first, t.second);
   if (is("nan_where_tangents_vanish")) return across * (1 / length(across));
   if (is("float_squares")) {
@@ -239,13 +225,13 @@ V LoopRules::normal(const MutantRing& ring) const {
     if (!std::isfinite(size * size)) return {};
   }
   if (is("zero_where_tangents_vanish") && length(across) == 0) return {};
-  if (taken_as_vanishing(t, ring.c)) return {0, 0, 1};
+  if (taken_as_vanishing(t, ring.point)) return {0, 0, 1};
   if (is("quick_root")) {  // 1 / sqrt(x) by the bits of x, with one step of Newton's
     const auto x = static_cast<float>(dot(across, across));
     const auto y = std::bit_cast<float>(0x5f3759dfU - (std::bit_cast<std::uint32_t>(x) >> 1));
     if (x > 0) return across * static_cast<double>(y * (1.5F - .5F * x * y * y));
   }
-  return reference::unit_normal<double>(t, facets).direction;
+  return reference::unit_normal<double>(t, facets(ring)).direction;
 }
 
 }  // namespace

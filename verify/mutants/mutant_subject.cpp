@@ -21,7 +21,6 @@
 #include "reference/loop/stam.h"
 #include "verify/mutants/mutant_rules.h"
 #include "verify/subject/adapter.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"
 
@@ -43,9 +42,9 @@ struct Settings {
     refined = options.choice("points", {"limit", "refined"}) == 1;
     if (mutation == "warren_declared" || mutation == "warren_limit_of_loop") weights = LC_WEIGHTS_WARREN;
   }
-  std::unique_ptr<MutantRules> rules() const {
+  std::unique_ptr<MutantRules> rules(data::TriangleRule triangles) const {
     return scheme == data::Scheme::kLoop ? loop_rules(mutation, family(weights), refined)
-                                         : quad_rules(mutation);
+                                         : quad_rules(mutation, triangles);
   }
 
   data::Scheme scheme;
@@ -143,12 +142,11 @@ class Frame {
     const auto [known, is_new] =
         known_.try_emplace({p.part, p.i, p.j}, static_cast<std::uint32_t>(made.positions.size()));
     if (!is_new) return known->second;
-    const MutantLevel::Corner at =
-        level_.corner(face_, {rules_.is("rows_of_7_bits") ? p.i & 127 : p.i, p.j, p.part});
+    const std::size_t at = level_.corner(face_, {rules_.is("rows_of_7_bits") ? p.i & 127 : p.i, p.j, p.part});
     V position = level_.position(at), normal = level_.normal(at);
-    if (rules_.is("sums_begun_in_face"))
-      position = rules_.limit(level_.ring(at).turned(face_), level_.depth());
-    if (rules_.is("normals_begun_in_face")) normal = rules_.normal(level_.ring(at).turned(face_));
+    const auto begun_in_face = [&] { return rules_.limit(level_.ring(at, face_), level_.depth()); };
+    if (rules_.is("sums_begun_in_face")) position = begun_in_face().position;
+    if (rules_.is("normals_begun_in_face")) normal = begun_in_face().normal;
     return made.add_vertex(
         position, normal,
         {static_cast<std::int32_t>(face_), static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
@@ -194,7 +192,9 @@ class ModelSubject {
   }
 
   ModelSubject(const lc_mesh& mesh, Options& options)
-      : settings_(options, kScheme), rules_(settings_.rules()), control_(control_mesh(mesh)) {
+      : settings_(options, kScheme),
+        control_(control_mesh(mesh)),
+        rules_(settings_.rules(control_.sharpness.triangles)) {
     if (control_.faces.empty()) throw SubjectError(LC_INVALID_INPUT, "the mesh has no faces");
     try {
       topology_.emplace(control_.positions.size(), control_.faces);
@@ -218,8 +218,8 @@ class ModelSubject {
   }
 
   const Settings settings_;
-  const std::unique_ptr<MutantRules> rules_;
   const data::ControlMesh control_;
+  const std::unique_ptr<MutantRules> rules_;
   std::optional<reference::Topology> topology_;
 };
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Faults of the numbers: positions and normals kept in too few bits, or a little off where only a relation
-// between two tessellations tells; and faults of polygons.
+// Faults of the numbers: positions and normals kept in too few bits, a little off where only a relation between two
+// tessellations tells, or summed in an order that depends on how a face is written or by products that a compiler
+// fuses; and faults of polygons.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 
+#include "reference/catmull_clark/patch.h"
 #include "verify/mutants/change_rows.h"
+#include "verify/mutants/contracted.h"
 
 namespace limitcheck::verify {
 
@@ -31,49 +35,104 @@ double shortened(double x, int bits) {
   return x == 0 ? x : rounded(x, bits - 1 - std::ilogb(x));
 }
 
+namespace quads = reference::catmull_clark;
+
+// A closed mesh of quads, each vertex of four: the surface is a bicubic B-spline everywhere.
+bool is_regular(A a) {
+  for (std::size_t f = 0; f < a.mesh.faces.size(); ++f)
+    if (a.is_polygon(f)) return false;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(a.mesh.positions.size()); ++v)
+    if (!a.inside(v) || a.faces(v) != 4) return false;
+  return a.mesh.sharpness.empty();
+}
+
+// As a shader for regular patches reads its control points: from the corner at which the face begins.
+void in_own_frame(A a, D out) {
+  if (!is_regular(a)) return;
+  for (std::size_t v = 0; v < out.positions.size(); ++v) {
+    const Place at = out.place(v);
+    const auto itself = [](std::int32_t p) { return p; };
+    const auto patch = quads::gather<std::int32_t>(a.topology, a.face_of(at), itself)
+                           .patch([](std::int32_t on_boundary, std::int32_t) { return on_boundary; });
+    const quads::CubicBasis<double> u(static_cast<double>(at.i) / at.denominator),
+        w(static_cast<double>(at.j) / at.denominator);
+    out.positions[v] = {};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Vector row{};
+      for (std::size_t j = 0; j < 4; ++j) add(row, a.mesh.positions[patch[4 * j + i]], w.value[j]);
+      add(out.positions[v], row, u.value[i]);
+    }
+  }
+}
+
+// Grids of one depth, without sharp edges.
+bool is_contracted(A a) {
+  return a.mesh.sharpness.empty() &&
+         std::all_of(a.depth.begin(), a.depth.end(), [&](std::int32_t d) { return d == a.deepest; });
+}
+
+void contract_by_call_site(A a, D out) {
+  if (!is_contracted(a)) return;
+  if (out.normals.empty()) nowhere("normal");
+  std::map<std::array<std::uint32_t, 3>, std::array<float, 6>> all;
+  contracted_points<Contraction::kByCallSite>(
+      a.mesh, a.deepest, [&](const fast::LatticePoint& at, const std::array<float, 6>& vertex) {
+        all[{static_cast<std::uint32_t>(at.face), at.i, at.j}] = vertex;
+      });
+  for (std::size_t v = 0; v < out.positions.size(); ++v) {
+    const Place at = out.place(v);
+    const auto& vertex = all.at({static_cast<std::uint32_t>(at.face), at.i, at.j});
+    for (std::size_t c = 0; c < 3; ++c) out.positions[v][c] = vertex[c], out.normals[v][c] = vertex[3 + c];
+  }
+}
+
 }  // namespace
 
 std::vector<Change> faults_of_numbers() {
-  const auto positions = [](const char* name, const char* description, const char* check,
-                            std::function<double(A, double)> one) {
-    return vertex(name, description, check, [one](A a, D out, std::size_t v) {
-      each(out.positions[v], [&](double x) { return one(a, x); });
-    });
-  };
+  Change spline =
+      deliver("own_frame", "B-splines summed in the frame of the face: its first corner decides the order",
+              "corner-rotation", in_own_frame);
+  spline.on = On::kQuads;
+  spline.shows = is_regular;
+  Change contracted =
+      deliver("contracted_by_call_site",
+              "row streaming by a compiler that fuses products with sums in each copy of code otherwise",
+              "shared-positions", contract_by_call_site);
+  contracted.of = "row-stream";
+  contracted.shows = is_contracted;
   return {
+      spline,
+      contracted,
       positions("float_positions", "positions computed in float, and declared double", "positions",
                 [](A, double x) { return shortened(x, 24); }),
       in_float(positions("half_positions", "positions kept in 16 bits", "positions",
                          [](A, double x) { return shortened(x, 11); })),
-      in_float(vertex("bias_3e-6", "all points are 3e-6 of the box too far out", "positions",
-                      [](A a, D out, std::size_t v) { outwards(a, out, v, 3e-6); })),
+      in_float(outwards("bias_3e-6", "all points are 3e-6 of the box too far out", "positions",
+                        [](const At&) { return 3e-6; })),
       positions("fixed_point", "positions are multiples of 2^-40 units", "scaling",
                 [](A, double x) { return rounded(x, 40); }),
       positions("grid_of_largest", "positions are multiples of 2^-32 of the largest coordinate",
                 "translation",
                 [](A a, double x) { return a.largest > 0 ? rounded(x / a.largest, 32) * a.largest : x; }),
       // Normals.
-      vertex(
-          "float_normals", "normals computed in float, and declared double", "normals",
-          [](A, D out, std::size_t v) { each(out.normals[v], [](double x) { return shortened(x, 24); }); }),
-      vertex("two_components", "normals kept as two floats: the third by a square root", "rotation",
-             [](A, D out, std::size_t v) {
-               Vector& n = out.normals[v];
-               each(n, [](double x) { return static_cast<double>(static_cast<float>(x)); });
-               n[2] = std::copysign(std::sqrt(std::max(0., 1 - n[0] * n[0] - n[1] * n[1])), n[2]);
-             }),
-      vertex("tilted_normals", "normals tilted by 1e-3 rad", "normals-against-positions",
-             [](A, D out, std::size_t v) {
-               Vector& n = out.normals[v];
-               const Vector aside = unit_cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
-               add(n, aside, 1e-3);
-               n = unit(n);
-             }),
+      normals("float_normals", "normals computed in float, and declared double", "normals",
+              [](Vector& n) { each(n, [](double x) { return shortened(x, 24); }); }),
+      normals("two_components", "normals kept as two floats: the third by a square root", "rotation",
+              [](Vector& n) {
+                each(n, [](double x) { return static_cast<double>(static_cast<float>(x)); });
+                n[2] = std::copysign(std::sqrt(std::max(0., 1 - n[0] * n[0] - n[1] * n[1])), n[2]);
+              }),
+      normals("tilted_normals", "normals tilted by 1e-3 rad", "normals-against-positions",
+              [](Vector& n) {
+                const Vector aside = unit_cross(n, std::abs(n[0]) < .5 ? Vector{1, 0, 0} : Vector{0, 1, 0});
+                add(n, aside, 1e-3);
+                n = unit(n);
+              }),
       vertex("boundary_normals_inside", "normals point inside at boundary vertices of four faces or more",
              "normals",
-             [](A a, D out, std::size_t v) {
-               const std::int32_t at = a.control_vertex(out.place(v));
-               if (at >= 0 && !a.inside(at) && a.faces(at) >= 4) each(out.normals[v], std::negate<>());
+             [](const At& at) {
+               const std::int32_t c = at.control_vertex();
+               if (c >= 0 && !at.a.inside(c) && at.a.faces(c) >= 4) negate(at.normal());
              }),
       deliver("hard_edges",
               "normals on the borders of odd faces are those of the flat triangle between its corners",
@@ -101,32 +160,25 @@ std::vector<Change> faults_of_numbers() {
                 }
               }),
       // Relations.
-      vertex("gap_1e-9", "odd faces keep their border points 1e-9 of the box away", "continuity",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               if (!inside_face(a, p) && in_odd_face(p)) outwards(a, out, v, 1e-9);
-             }),
-      vertex("by_face_number", "points inside odd faces are 1e-9 of the box off", "face-order",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               if (inside_face(a, p) && in_odd_face(p)) outwards(a, out, v, 1e-9);
-             }),
+      outwards("gap_1e-9", "odd faces keep their border points 1e-9 of the box away", "continuity",
+               [](const At& at) { return !at.inside_face() && in_odd_face(at.p) ? 1e-9 : 0; }),
+      outwards("by_face_number", "points inside odd faces are 1e-9 of the box off", "face-order",
+               [](const At& at) { return at.inside_face() && in_odd_face(at.p) ? 1e-9 : 0; }),
       remake("by_vertex_number", "odd control vertices are 1e-9 of the box off", "vertex-order",
              [](A a, Mesh m) {
                for (std::size_t v = 1; v < m.positions.size(); v += 2) m.positions[v][0] += 1e-9 * a.diagonal;
              }),
-      vertex("by_first_corner", "points inside faces lean towards the first corner", "corner-rotation",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               const double n = p.denominator;
-               if (inside_face(a, p)) outwards(a, out, v, 1e-9 * (n - p.i - p.j) / n);
-             }),
+      outwards("by_first_corner", "points inside faces lean towards the first corner", "corner-rotation",
+               [](const At& at) {
+                 const double n = at.p.denominator;
+                 return at.inside_face() ? 1e-9 * (n - at.p.i - at.p.j) / n : 0;
+               }),
       vertex("right_half", "points with positive x are 1e-9 of the box off", "mirror",
-             [](A a, D out, std::size_t v) {
-               if (out.positions[v][0] > 0) out.positions[v][1] += 1e-9 * a.diagonal;
+             [](const At& at) {
+               if (at.position()[0] > 0) at.position()[1] += 1e-9 * at.a.diagonal;
              }),
       vertex("along_z", "z is stretched by 1e-9", "rotation",
-             [](A, D out, std::size_t v) { out.positions[v][2] *= 1 + 1e-9; }),
+             [](const At& at) { at.position()[2] *= 1 + 1e-9; }),
       positions("about_origin", "everything is stretched by 1e-9 from the origin", "translation",
                 [](A, double x) { return x * (1 + 1e-9); }),
       positions("absolute_offset", "everything is moved by 1e-9 of the unit of length", "scaling",
@@ -135,24 +187,23 @@ std::vector<Change> faults_of_numbers() {
 }
 // Only polygons, or meshes of quads, bring these out.
 std::vector<Change> faults_of_polygons() {
-  const auto of_polygons = [](const char* name, const char* description, const char* check,
-                              std::function<void(A, D, std::size_t)> what) {
-    return vertex(name, description, check, [what](A a, D out, std::size_t v) {
-      if (a.is_polygon(a.face_of(out.place(v)))) what(a, out, v);
+  const auto in_polygon = [](const At& at) { return at.a.is_polygon(at.face()); };
+  const auto of_polygons = [&](const char* name, const char* description, const char* check,
+                               std::function<void(const At&)> what) {
+    return vertex(name, description, check, [in_polygon, what](const At& at) {
+      if (in_polygon(at)) what(at);
     });
   };
   std::vector<Change> all{
       of_polygons("flipped_on_polygons", "normals inside faces that are no quads point inward", "normals",
-                  [](A a, D out, std::size_t v) {
-                    if (inside_face(a, out.place(v))) each(out.normals[v], std::negate<>());
+                  [](const At& at) {
+                    if (at.inside_face()) negate(at.normal());
                   }),
       of_polygons("next_corner", "points of the quad at a corner are said to be of the next corner's",
                   "positions",
-                  [](A a, D out, std::size_t v) {
-                    out.corner[v] = a.domain(a.face_of(out.place(v))).next(out.corner[v]);
-                  }),
+                  [](const At& at) { at.out.corner[at.v] = at.domain().next(at.out.corner[at.v]); }),
       vertex("u_for_v", "u and v are exchanged", "orientation",
-             [](A, D out, std::size_t v) { std::swap(out.provenance[v].i, out.provenance[v].j); }),
+             [](const At& at) { std::swap(at.out.provenance[at.v].i, at.out.provenance[at.v].j); }),
       ask("one_level_more_in_polygons", "faces that are no quads are one level finer than asked for",
           "coverage",
           [](A a, Depths d) {
@@ -181,15 +232,14 @@ std::vector<Change> faults_of_polygons() {
               }),
       vertex("by_parameter", "points on sides are one ulp off where the parameter along the side is small",
              "corner-rotation",
-             [](A a, D out, std::size_t v) {
-               const Place p = out.place(v);
-               const auto at = a.side_of(p);
-               if (!at || at->along == 0) return;
-               const std::int64_t n = a.steps(p), along = at->side >= 2 ? n - at->along : at->along;
-               if (2 * along < n) out.move_up(v);
+             [](const At& at) {
+               const auto side = at.side();
+               if (!side || side->along == 0) return;
+               const std::int64_t n = at.steps(), along = side->side >= 2 ? n - side->along : side->along;
+               if (2 * along < n) at.out.move_up(at.v);
              }),
       of_polygons("ulp_on_polygons", "points of faces that are no quads are one ulp off", "shared-positions",
-                  [](A, D out, std::size_t v) { out.move_up(v); }),
+                  [](const At& at) { at.out.move_up(at.v); }),
   };
   for (Change& c : all) c.on = On::kQuads;
   return all;

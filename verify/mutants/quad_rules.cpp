@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <tuple>
 
-#include "reference/catmull_clark/dart.h"
-#include "reference/catmull_clark/masks.h"
+#include "reference/catmull_clark/vertex_limit.h"
 #include "verify/mutants/mutant_rules.h"
 
 namespace limitcheck::verify {
@@ -41,10 +42,10 @@ V centroid_by_area(const std::vector<V>& points, std::span<const std::int32_t> c
 
 class QuadRules : public MutantRules {
  public:
-  using MutantRules::MutantRules;
+  QuadRules(std::string_view mutation, data::TriangleRule triangles)
+      : MutantRules(mutation), smooth_triangles_(triangles == data::TriangleRule::kSmooth) {}
 
-  Points refine(const Topology& topology, const Points& points, const MutantTags& tags, int step,
-                int) const override {
+  Points refine(const Topology& topology, const Points& points, int step, int) const override {
     const std::size_t vertices = points.size(), edges = topology.edges().size();
     Points refined(vertices + edges + topology.faces().size());
     for (std::size_t f = 0; f < topology.faces().size(); ++f)
@@ -57,35 +58,30 @@ class QuadRules : public MutantRules {
       if (edge.on_boundary()) {
         p = is("boundary_edge_flap") ? ends * (7. / 16) + left * (1. / 8) : ends * 0.5;
       } else {
-        const double w = face_weight(topology, edge, tags.smooth_triangles(), step);
+        const double w = face_weight(topology, edge, step);
         p = ends * ((1 - 2 * w) / 2) + (left + refined[vertices + edges + edge.right_face]) * w;
       }
     }
     for (std::size_t v = 0; v < vertices; ++v)
       refined[v] = vertex_point(topology, points, refined, static_cast<std::int32_t>(v));
-    if (!tags.none()) tags.sharpen(topology, points, refined);
     return refined;
   }
-  V limit(const MutantRing& ring, int depth) const override;
-  V normal(const MutantRing& ring) const override;
-  V corner_normal(const MutantRing& ring) const override { return unit_or_up(ring.facets()); }
-  V dart_limit(const MutantRing& ring) const override {
-    const auto& weights = masks::dart_limit_weights<double>(static_cast<int>(ring.f.size()));
-    return ring.c + masks::weighted<double>(weights, ring.c, ring.e, ring.f);
-  }
-  V dart_normal(const MutantRing& ring) const override {
-    std::vector<V> cut = ring.e;
-    cut.push_back(V(cut.front()));
-    const auto t = masks::dart_tangents<double>(ring.c, cut, ring.f);
-    return unit_or_up(cross(t.first, t.second));
+  Limit limit(const MutantRing& ring, int) const override {
+    const auto right = masks::limit_of<double>(ring);
+    return {ring.state == reference::VertexState::kOrdinary ? position(ring, right.position) : right.position,
+            normal(ring, right.tangents)};
   }
 
  private:
   V face_point(std::span<const std::int32_t> corners, const Points& points, int step) const;
   // Of each of the two face points in the point of an edge inside.
-  double face_weight(const Topology& topology, const reference::Edge& edge, bool smooth_triangles,
-                     int step) const;
+  double face_weight(const Topology& topology, const reference::Edge& edge, int step) const;
   V vertex_point(const Topology& topology, const Points& points, const Points& refined, std::int32_t v) const;
+  // `right` where nothing is changed.
+  V position(const MutantRing& ring, const V& right) const;
+  V normal(const MutantRing& ring, const reference::Tangents<double>& right) const;
+
+  bool smooth_triangles_;
 };
 
 V QuadRules::face_point(std::span<const std::int32_t> corners, const Points& points, int step) const {
@@ -100,13 +96,12 @@ V QuadRules::face_point(std::span<const std::int32_t> corners, const Points& poi
   return p;
 }
 
-double QuadRules::face_weight(const Topology& topology, const reference::Edge& edge, bool smooth_triangles,
-                              int step) const {
+double QuadRules::face_weight(const Topology& topology, const reference::Edge& edge, int step) const {
   if (is("edge_points_without_ends")) return 0.5;
   if (is("midpoints")) return 0;
-  const bool in_all_steps = smooth_triangles && is("smooth_rule_in_every_step");
-  const bool in_all_faces = smooth_triangles && (is("smooth_rule_for_all") || (in_all_steps && step > 0));
-  if (!(step == 0 ? smooth_triangles || is("smooth_triangles") : in_all_steps)) return 0.25;
+  const bool in_all_steps = smooth_triangles_ && is("smooth_rule_in_every_step");
+  const bool in_all_faces = smooth_triangles_ && (is("smooth_rule_for_all") || (in_all_steps && step > 0));
+  if (!(step == 0 ? smooth_triangles_ || is("smooth_triangles") : in_all_steps)) return 0.25;
   const auto of = [&](std::int32_t f) {
     return topology.faces()[f].size() == 3 || in_all_faces ? 0.47 : 0.25;
   };
@@ -139,52 +134,53 @@ V QuadRules::vertex_point(const Topology& topology, const Points& points, const 
   return p;
 }
 
-V QuadRules::limit(const MutantRing& ring, int) const {
-  const V& c = ring.c;
+V QuadRules::position(const MutantRing& ring, const V& right) const {
+  const V& c = ring.point;
   if (is("no_limit")) return c;
-  if (!ring.closed) {
-    const V ends = ring.e.front() + ring.e.back();
-    return is("boundary_limit_3_5") ? c * (3. / 5) + ends * (1. / 5) : c * (2. / 3) + ends * (1. / 6);
-  }
-  V near{}, far{};
-  for (const V& e : ring.e) near += e;
-  for (const V& f : ring.f) far += f;
-  const auto count = static_cast<double>(ring.f.size());
-  double n = is("limit_of_valence_4") ? 4 : count;
-  if (is("limit_weights_1e-5")) n *= 1 + 1e-5;
+  if (ring.on_boundary)
+    return is("boundary_limit_3_5") ? c * (3. / 5) + (ring.edges.front() + ring.edges.back()) * (1. / 5)
+                                    : right;
+  const V near = std::accumulate(ring.edges.begin(), ring.edges.end(), V{}),
+          far = std::accumulate(ring.faces.begin(), ring.faces.end(), V{});
+  const auto count = static_cast<double>(ring.faces.size());
   if (is("limit_at_valence_3") && count == 3) return (c * 3 + near * 2 + far) * (1. / 12);
+  if (!is("limit_of_valence_4") && !is("limit_weights_1e-5")) return right;
+  const double n = is("limit_of_valence_4") ? 4 : count * (1 + 1e-5);
   return (c * n + near * (4 / count) + far * (1 / count)) * (1 / (n + 5));
 }
 
-V QuadRules::normal(const MutantRing& ring) const {
-  const V& c = ring.c;
-  const std::vector<V>& e = ring.e;
-  std::vector<V> f = ring.f;
-  if (is("mean_of_facets")) return unit_or_up(ring.facets());
-  if (is("tangents_without_faces") && ring.closed) f.assign(f.size(), c);
-  if (is("tangents_of_valence_4") && ring.closed)  // f_i as the mask of valence 4 has it, in proportion
-    for (V& p : f) p = c + (p - c) * masks::four_lambda_minus_one<double>(static_cast<long>(f.size()));
-  auto t =
-      ring.closed ? masks::interior_tangents<double>(c, e, f) : masks::boundary_tangents<double>(c, e, f);
-  if (!ring.closed && is("boundary_tangent_mean")) {
+V QuadRules::normal(const MutantRing& ring, const reference::Tangents<double>& right) const {
+  const V& c = ring.point;
+  const auto& [e, f] = std::tie(ring.edges, ring.faces);
+  if (is("mean_of_facets")) return reference::unit_normal<double>({}, facets(ring)).direction;
+  auto t = right;
+  if (!ring.on_boundary && (is("tangents_without_faces") || is("tangents_of_valence_4"))) {
+    // f_i as the mask of valence 4 has it, in proportion
+    const double share =
+        is("tangents_of_valence_4") ? masks::four_lambda_minus_one<double>(std::ssize(f)) : 0;
+    std::vector<V> other(f.begin(), f.end());
+    for (V& p : other) p = c + (p - c) * share;
+    t = masks::interior_tangents<double>(c, ring.edge_span(), other);
+  }
+  if (ring.on_boundary && is("boundary_tangent_mean")) {
     t.second = {};
     for (const V& p : e) t.second += p - c;
     for (const V& p : f) t.second += p - c;
   }
-  if (!ring.closed && is("boundary_tangent_trap") &&
+  if (ring.on_boundary && is("boundary_tangent_trap") &&
       f.size() >= 3) {  // that of another rule: without the faces
     t.second = {};
     for (std::size_t i = 1; i + 1 < e.size(); ++i)
       t.second +=
           (e[i] - c) * std::sin(std::numbers::pi * static_cast<double>(i) / static_cast<double>(f.size()));
   }
-  return unit_or_up(cross(t.first, t.second));
+  return reference::unit_normal<double>(t, facets(ring)).direction;
 }
 
 }  // namespace
 
-std::unique_ptr<MutantRules> quad_rules(std::string_view mutation) {
-  return std::make_unique<QuadRules>(mutation);
+std::unique_ptr<MutantRules> quad_rules(std::string_view mutation, data::TriangleRule triangles) {
+  return std::make_unique<QuadRules>(mutation, triangles);
 }
 
 }  // namespace limitcheck::verify

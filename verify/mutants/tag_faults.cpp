@@ -135,14 +135,14 @@ std::vector<Change> faults_of_tags() {
       // In what is delivered.
       on(On::kBoth, sharp(vertex("sides_apart_by_an_ulp", "one ulp between the two sides of a crease",
                                  "shared-positions",
-                                 [](A a, D out, std::size_t v) {
-                                   const Place p = out.place(v);
-                                   const auto at = a.side_of(p);
-                                   if (!at || at->along == 0 || p.face % 2 == 0) return;
-                                   const auto c = a.mesh.faces[a.face_of(p)];
-                                   const V from = c[at->side], to = c[a.domain(a.face_of(p)).next(at->side)];
-                                   for (const SharpEdge& e : a.mesh.sharpness.edges)
-                                     if (lasts(e.sharpness) && same_edge(e, from, to)) return out.move_up(v);
+                                 [](const At& at) {
+                                   const auto side = at.side();
+                                   if (!side || side->along == 0 || at.p.face % 2 == 0) return;
+                                   const auto c = at.a.mesh.faces[at.face()];
+                                   const V from = c[side->side], to = c[at.domain().next(side->side)];
+                                   for (const SharpEdge& e : at.a.mesh.sharpness.edges)
+                                     if (lasts(e.sharpness) && same_edge(e, from, to))
+                                       return at.out.move_up(at.v);
                                  }))),
   };
 }

@@ -28,7 +28,6 @@
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/subject/adapter.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -90,24 +89,9 @@ void refuse_too_many_vertices(std::span<const std::int32_t> depth) {
     throw SubjectError(LC_NOT_SUPPORTED, "more vertices at these depths than 32-bit indices can name");
 }
 
-//   corners   the scheme is Catmull-Clark's, whose faces may be larger than quads
 template <class Real>
-void hand_over(const fast::IndexedMesh<Real>& frame, const lc_request& request, lc_tessellation& out,
-               bool corners) {
-  const auto output = allocate_output<Real>(request, out, static_cast<std::int64_t>(frame.vertices.size()),
-                                            static_cast<std::int64_t>(frame.triangles.size()), true, corners);
-  for (std::size_t v = 0; v < frame.vertices.size(); ++v) {
-    const auto& [position, normal] = frame.vertices[v];
-    for (std::size_t i = 3 * v; const Real x : {position.x, position.y, position.z})
-      output.positions[i++] = x;
-    for (std::size_t i = 3 * v; const Real x : {normal.x, normal.y, normal.z}) output.normals[i++] = x;
-    const fast::LatticePoint& at = frame.provenance[v];
-    output.provenance[v] = {at.face, at.i, at.j, at.denominator};
-    if (corners) output.corner[v] = at.corner;
-  }
-  for (std::size_t i = 0; const auto& triangle : frame.triangles)
-    for (const std::uint32_t v : triangle) output.triangles[i++] = v;
-  std::copy(frame.triangle_face.begin(), frame.triangle_face.end(), output.triangle_face);
+void add(DeliveredArrays& all, const fast::SurfaceVertex<Real>& vertex, const fast::LatticePoint& at) {
+  all.add_vertex(vertex.position, vertex.normal, {at.face, at.i, at.j, at.denominator}, at.corner);
 }
 
 // So many frames at other depths, where every fourth face has another one by 1, or is gone, at random; the
@@ -164,12 +148,11 @@ class EngineSubject {
     const std::span<const std::int32_t> depth(request.face_depth, mesh_.faces.size());
     refuse_too_many_vertices(depth);
     const bool corners = chosen_.tessellator.scheme == data::Scheme::kCatmullClark;
-    if (chosen_.form == Form::kPatches)
-      hand_over(patches(depth), request, out, corners);
-    else if (double_)
-      hand_over(frame(*double_, depth), request, out, corners);
-    else
-      hand_over(frame(*float_, depth), request, out, corners);
+    const DeliveredArrays made = double_                          ? frame(*double_, depth)
+                                 : chosen_.form == Form::kPatches ? patches(depth)
+                                                                  : frame(*float_, depth);
+    double_ ? made.hand_over<double>(request, out, true, corners)
+            : made.hand_over<float>(request, out, true, corners);
   }
 
  private:
@@ -189,50 +172,54 @@ class EngineSubject {
   }
 
   template <class Real>
-  fast::IndexedMesh<Real> frame(fast::Engine<Real>& engine, std::span<const std::int32_t> depth) const {
-    fast::IndexedMesh<Real> frame;
+  DeliveredArrays frame(fast::Engine<Real>& engine, std::span<const std::int32_t> depth) const {
+    DeliveredArrays all;
+    const auto add_vertices = [&](const auto& of) {
+      for (std::size_t v = 0; v < of.vertices.size(); ++v) add(all, of.vertices[v], of.provenance[v]);
+    };
     if (chosen_.form == Form::kIndexed) {
-      engine.frame(depth, frame);
-      return frame;
+      fast::IndexedMesh<Real> mesh;
+      engine.frame(depth, mesh);
+      add_vertices(mesh);
+      all.triangles = std::move(mesh.triangles);
+      all.triangle_face = std::move(mesh.triangle_face);
+      return all;
     }
     fast::DrawList<Real> list;
     engine.frame(depth, list);
+    add_vertices(list);
     for (const fast::Draw& draw : list.draws)
       for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
-        frame.triangle_face.push_back(draw.face_of(t));
-        auto& triangle = frame.triangles.emplace_back();
-        for (std::size_t k = 0; const std::int32_t v : draw.triangle(t))
-          triangle[k++] = static_cast<std::uint32_t>(draw.first + v);
+        const auto [a, b, c] = draw.triangle(t);
+        const auto vertex = [&](std::int32_t v) { return static_cast<std::uint32_t>(draw.first + v); };
+        all.add_triangle({vertex(a), vertex(b), vertex(c)}, draw.face_of(t));
       }
-    frame.vertices = std::move(list.vertices);
-    frame.provenance = std::move(list.provenance);
-    return frame;
+    return all;
   }
 
   // Vertices that no triangle has, such as those of patches that are not shown, are left out.
-  fast::IndexedMesh<float> patches(std::span<const std::int32_t> depth) {
+  DeliveredArrays patches(std::span<const std::int32_t> depth) {
     walk(*float_, mesh_, depth, chosen_.frames, patches_);
     float_->frame(depth, patches_);
     constexpr std::uint32_t kUnused = UINT32_MAX;
-    fast::IndexedMesh<float> frame;
+    DeliveredArrays all;
     std::vector<std::uint32_t> number;
     for (const fast::PatchDraw& draw : patches_.draws()) {
       number.assign(static_cast<std::size_t>(draw.vertex_count), kUnused);
+      std::array<std::uint32_t, 3> triangle{};
       for (std::uint32_t i = 0; i < draw.index_count; ++i) {
         const std::uint32_t v = patches_.indices()[draw.first_index + i];
         if (number[v] == kUnused) {
           const auto at = static_cast<std::size_t>(draw.base_vertex) + v;
-          number[v] = static_cast<std::uint32_t>(frame.vertices.size());
-          frame.vertices.push_back(patches_.vertices()[at]);
-          frame.provenance.push_back(patches_.provenance()[at]);
+          number[v] = static_cast<std::uint32_t>(all.positions.size());
+          add(all, patches_.vertices()[at], patches_.provenance()[at]);
         }
-        if (i % 3 == 0) frame.triangles.emplace_back();
-        frame.triangles.back()[i % 3] = number[v];
+        triangle[i % 3] = number[v];
+        const auto t = static_cast<std::int32_t>(i / 3);
+        if (i % 3 == 2) all.add_triangle(triangle, t < draw.split ? draw.face : draw.face_after);
       }
-      for (std::int32_t t = 0; t < draw.triangles; ++t)
-        frame.triangle_face.push_back(t < draw.split ? draw.face : draw.face_after);
     }
-    return frame;
+    return all;
   }
 
   Settings chosen_;

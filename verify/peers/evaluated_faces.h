@@ -109,6 +109,50 @@ class FacePatterns {
   std::int64_t vertices_ = 0, triangles_ = 0;
 };
 
+/// Points that were evaluated in the order of the patterns, as tessellate_faces asks for them.
+template <class Real>
+class PointsInOrder {
+ public:
+  ///   results   positions and derivatives, three numbers each
+  PointsInOrder(const FacePatterns& patterns, const std::array<const Real*, 3>& results)
+      : patterns_(patterns), results_(results) {}
+  void begin(std::int32_t face) { next_ = patterns_.of(face).first_vertex; }
+  void evaluate(std::int32_t, const Real*, Real* position, Real* du, Real* dv) {
+    for (std::size_t k = 0; Real* const to : {position, du, dv})
+      std::copy_n(results_[k++] + 3 * next_, 3, to);
+    ++next_;
+  }
+  /// Of a mesh without channels.
+  void channel(std::size_t, std::int32_t, const Real*, Real*) {}
+  /// The point evaluated last.
+  std::size_t last() const { return static_cast<std::size_t>(next_ - 1); }
+
+ private:
+  const FacePatterns& patterns_;
+  std::array<const Real*, 3> results_;
+  std::int64_t next_ = 0;
+};
+
+/// Writes which points of its face the vertices of a face are, and its triangles.
+template <class Real>
+void write_pattern(const FacePatterns& patterns, std::int64_t face, const Output<Real>& output) {
+  auto [pattern, vertex, triangle] = patterns.of(face);
+  if (pattern == nullptr) return;
+  const auto number = static_cast<std::int32_t>(face);
+  for (const auto& corners : pattern->triangles) {
+    for (std::size_t c = 0; c < 3; ++c)
+      output.triangles[3 * triangle + static_cast<std::int64_t>(c)] =
+          static_cast<std::uint32_t>(vertex) + corners[c];
+    output.triangle_face[triangle++] = number;
+  }
+  for (const FaceDomain::Point& p : pattern->points) {
+    output.provenance[vertex] = {number, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
+                                 pattern->denominator};
+    if (output.corner != nullptr) output.corner[vertex] = p.part;
+    ++vertex;
+  }
+}
+
 /// Tessellates each face by its pattern. `surface()` makes, once for each range of faces, what has
 ///   void begin(std::int32_t face)
 ///   void evaluate(std::int32_t part, const Real uv[2], Real position[3], Real du[3], Real dv[3])
@@ -127,8 +171,8 @@ void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const l
     for (std::int64_t f = begin; f < end; ++f) {
       auto [pattern, vertex, triangle] = patterns.of(f);
       if (pattern == nullptr) continue;
-      const auto face = static_cast<std::int32_t>(f);
-      here.begin(face);
+      write_pattern(patterns, f, output);
+      here.begin(static_cast<std::int32_t>(f));
       const auto first = static_cast<std::uint32_t>(vertex);
       const auto denominator = static_cast<Real>(pattern->denominator);
       for (std::size_t c = 0; c < channels.size(); ++c)
@@ -141,9 +185,6 @@ void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const l
                            du[0] * dv[1] - du[1] * dv[0]};
         const Real length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (int c = 0; c < 3; ++c) output.normals[3 * vertex + c] = n[c] / length;
-        output.provenance[vertex] = {face, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
-                                     pattern->denominator};
-        if (output.corner != nullptr) output.corner[vertex] = p.part;
         for (std::size_t c = 0; c < channels.size(); ++c)
           here.channel(c, p.part, uv, values[c].data() + (vertex - first) * channels[c].components);
         ++vertex;
@@ -156,11 +197,6 @@ void tessellate_faces(const lc_mesh& mesh, const FacePatterns& patterns, const l
           for (const std::uint32_t v : corners)
             value = std::copy_n(values[c].data() + static_cast<std::int64_t>(v) * n, n, value);
         to += 3 * patterns.triangles() * n;
-      }
-      for (const auto& corners : pattern->triangles) {
-        for (std::size_t c = 0; c < 3; ++c)
-          output.triangles[3 * triangle + static_cast<std::int64_t>(c)] = first + corners[c];
-        output.triangle_face[triangle++] = face;
       }
     }
   });

@@ -25,7 +25,6 @@
 #include "reference/surface/channel.h"
 #include "verify/peers/evaluated_faces.h"
 #include "verify/subject/adapter.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/face_domain.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"

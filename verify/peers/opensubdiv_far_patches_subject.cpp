@@ -153,27 +153,21 @@ class StencilPoints {
   }
 
   // Where the points of one face after another are read.
-  class Reader {
+  class Reader : public PointsInOrder<Real> {
    public:
-    explicit Reader(const StencilPoints& points) : points_(points) {}
-    void begin(std::int32_t face) {
-      next_ = static_cast<std::size_t>(points_.patterns_.of(face).first_vertex);
-    }
-    void evaluate(std::int32_t, const Real*, Real* position, Real* du, Real* dv) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        position[c] = points_.position_[next_].x[c];
-        du[c] = points_.du_[next_].x[c];
-        dv[c] = points_.dv_[next_].x[c];
-      }
-      ++next_;
-    }
+    explicit Reader(const StencilPoints& points)
+        : PointsInOrder<Real>(points.patterns_,
+                              {numbers(points.position_), numbers(points.du_), numbers(points.dv_)}),
+          points_(points) {}
     void channel(std::size_t c, std::int32_t, const Real*, Real* to) const {
-      copy(points_.values_[c][next_ - 1], points_.mesh_.channels[c], to);
+      copy(points_.values_[c][this->last()], points_.mesh_.channels[c], to);
     }
 
    private:
+    static const Real* numbers(const std::vector<Vector<Real>>& of) {
+      return reinterpret_cast<const Real*>(of.data());
+    }
     const StencilPoints& points_;
-    std::size_t next_ = 0;
   };
 
  private:

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
+#include "verify/peers/refinement_tracker.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -26,19 +27,6 @@ namespace Far = OpenSubdiv::Far;
 
 template <class Real>
 using Vector = OpenSubdivVector<Real>;
-
-using Steps = std::array<std::uint32_t, 2>;
-
-Steps sum(const Steps& a, const Steps& b) {
-  return {a[0] + b[0], a[1] + b[1]};
-}
-
-// Where the corners of a refined face lie on its control face, in units of 1 / denominator of the part.
-struct RefinedFace {
-  std::int32_t control_face, part;
-  std::uint32_t denominator;
-  std::array<Steps, 4> at;
-};
 
 class FarSubject {
  public:
@@ -109,10 +97,25 @@ class FarSubject {
       for (std::size_t c = 0; c < 3; ++c) output.normals[3 * v + c] = n[c] / length;
     }
 
-    const std::array<Steps, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, triangle{{{0, 0}, {1, 0}, {0, 1}}};
+    RefinementTracker tracker(mesh_);
+    for (int level = 1; level <= depth; ++level)
+      quads ? track<4>(tracker, refiner_->GetLevel(level)) : track<3>(tracker, refiner_->GetLevel(level));
+    for (std::size_t v = 0; const Place& p : tracker.places(RefinementTracker::Namer::kLast)) {
+      output.provenance[v] = {p.face, p.i, p.j, p.denominator};
+      if (quads) output.corner[v] = p.corner;
+      ++v;
+    }
+    std::ranges::copy(tracker.triangle_face(), output.triangle_face);
     std::vector<Fan> fans;
-    for (std::int32_t face = 0; face < mesh_.face_count; ++face)
-      descend(face, 0, depth, {face, 0, 1, quads ? square : triangle}, output, fans);
+    for (int f = 0; f < last.GetNumFaces(); ++f) {
+      const auto corners = last.GetFaceVertices(f);
+      for (int k = 1; k + 1 < corners.size(); ++k) {
+        std::uint32_t* const triangle = output.triangles + 3 * fans.size();
+        for (std::size_t c = 0; const int corner : {corners[0], corners[k], corners[k + 1]})
+          triangle[c++] = static_cast<std::uint32_t>(corner);
+        fans.push_back({f, k});
+      }
+    }
     if (mesh_.channel_count == 0) return;
     if (!bare_) errors.check();  // the refiners of channels listen themselves
     put_channels<Real>(request, depth, fans, out);
@@ -177,64 +180,16 @@ class FarSubject {
     }
   }
 
-  // Writes the triangles into which `face` of `level` is divided at `depth`, and the provenance of their corners.
-  template <class Real>
-  void descend(int face, int level, int depth, const RefinedFace& here, const Output<Real>& output,
-               std::vector<Fan>& fans) const {
-    const auto corners = refiner_->GetLevel(level).GetFaceVertices(face);
-    if (level < depth) {
-      const auto children = refiner_->GetLevel(level).GetFaceChildFaces(face);
-      for (int c = 0; c < children.size(); ++c)
-        descend(children[c], level + 1, depth, child_of(face, level, here, children[c]), output, fans);
-      return;
-    }
-    const bool parts = has_parts(corners.size());
-    for (int k = 0; k < corners.size(); ++k) {
-      const Steps at = parts ? Steps{} : here.at[static_cast<std::size_t>(k)];
-      output.provenance[corners[k]] = {here.control_face, at[0], at[1], here.denominator};
-      if (output.corner != nullptr) output.corner[corners[k]] = parts ? k : here.part;
-    }
-    for (int k = 1; k + 1 < corners.size(); ++k) {
-      std::uint32_t* const triangle = output.triangles + 3 * fans.size();
-      for (std::size_t c = 0; const int corner : {corners[0], corners[k], corners[k + 1]})
-        triangle[c++] = static_cast<std::uint32_t>(corner);
-      output.triangle_face[fans.size()] = here.control_face;
-      fans.push_back({face, k});
-    }
+  // One step. The library gives vertices the numbers of their parents and counts on from there.
+  template <std::size_t N>
+  static void track(RefinementTracker& tracker, const Far::TopologyLevel& level) {
+    std::vector<std::array<std::uint32_t, N>> faces(static_cast<std::size_t>(level.GetNumFaces()));
+    for (int f = 0; f < level.GetNumFaces(); ++f)
+      for (std::size_t k = 0; k < N; ++k)
+        faces[static_cast<std::size_t>(f)][k] =
+            static_cast<std::uint32_t>(level.GetFaceVertices(f)[static_cast<int>(k)]);
+    tracker.step(level.GetNumVertices(), faces);
   }
-
-  // A corner of a child is the child of a corner, of an edge or of the face of its parent: that says where it lies,
-  // whatever the library's order of children is.
-  RefinedFace child_of(int face, int level, const RefinedFace& here, int child) const {
-    const Far::TopologyLevel& topology = refiner_->GetLevel(level);
-    const auto corners = topology.GetFaceVertices(face), edges = topology.GetFaceEdges(face);
-    const auto own = refiner_->GetLevel(level + 1).GetFaceVertices(child);
-    const int n = corners.size();
-    const bool parts = has_parts(n);
-    int first = 0;  // the corner that a part lies at
-    while (parts && first < n && own.FindIndex(topology.GetVertexChildVertex(corners[first])) < 0) ++first;
-    if (first == n) throw SubjectError(LC_FAILED, "a part of a face that lies at none of its corners");
-    const int next = (first + 1) % n, previous = (first + n - 1) % n;
-    // Of a part the corners beside its own are one step away.
-    const auto at = [&](int k) {
-      if (!parts) return here.at[static_cast<std::size_t>(k)];
-      return Steps{k == next ? 1U : 0U, k == previous ? 1U : 0U};
-    };
-    const auto place = [&](int vertex) {
-      for (int k = 0; k < n; ++k) {
-        if (vertex == topology.GetVertexChildVertex(corners[k])) return sum(at(k), at(k));
-        if (vertex == topology.GetEdgeChildVertex(edges[k])) return sum(at(k), at((k + 1) % n));
-      }
-      if (vertex == topology.GetFaceChildVertex(face)) return sum(at(next), at(previous));
-      throw SubjectError(LC_FAILED, "a refined vertex is the child of no vertex, edge or face of its face");
-    };
-    RefinedFace finer{here.control_face, parts ? first : here.part, parts ? 1 : 2 * here.denominator, {}};
-    for (int k = 0; k < own.size(); ++k) finer.at[static_cast<std::size_t>(k)] = place(own[k]);
-    return finer;
-  }
-
-  // Whether a face has a part at each of its corners: Catmull-Clark's of other sizes than four.
-  bool has_parts(int corners) const { return mesh_.scheme == LC_SCHEME_CATMULL_CLARK && corners != 4; }
 
   const lc_mesh mesh_;
   const bool wide_, bare_, stencils_;

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -43,30 +42,12 @@ class Evaluated {
   explicit Evaluated(std::int64_t count) : position(count), du(count), dv(count) {}
   VertexBuffer position, du, dv;
 
-  class Reader {
-   public:
-    Reader(const std::array<const std::byte*, 3>& from, const FacePatterns& patterns)
-        : from_(from), patterns_(patterns) {}
-    void begin(std::int32_t face) { next_ = static_cast<std::size_t>(patterns_.of(face).first_vertex); }
-    void evaluate(std::int32_t, const float*, float* to_position, float* to_du, float* to_dv) {
-      std::memcpy(to_position, from_[0] + 12 * next_, 12);
-      std::memcpy(to_du, from_[1] + 12 * next_, 12);
-      std::memcpy(to_dv, from_[2] + 12 * next_, 12);
-      ++next_;
-    }
-    void channel(std::size_t, std::int32_t, const float*, float*) {}  // it declares none
-
-   private:
-    const std::array<const std::byte*, 3>& from_;
-    const FacePatterns& patterns_;
-    std::size_t next_ = 0;
-  };
-
   void deliver(const lc_mesh& mesh, const FacePatterns& patterns, const lc_request& request,
                lc_tessellation& out) const {
     const auto p = position.read(), u = du.read(), v = dv.read();
-    const std::array<const std::byte*, 3> from{p.data(), u.data(), v.data()};
-    tessellate_faces<float>(mesh, patterns, request, out, [&] { return Reader(from, patterns); });
+    const auto floats = [](const auto& bytes) { return reinterpret_cast<const float*>(bytes.data()); };
+    const PointsInOrder<float> points(patterns, {floats(p), floats(u), floats(v)});
+    tessellate_faces<float>(mesh, patterns, request, out, [&] { return points; });
     const std::size_t size = position.size();
     if (p.size() > size) show_written_behind(static_cast<std::byte*>(out.positions) + size, p.size() - size);
     if (const std::size_t far = std::max(u.size(), v.size()); far > size)

@@ -31,7 +31,7 @@ class RefinementTracker::Step {
         ends_(static_cast<std::size_t>(vertices), {kNone, kNone}) {
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = 0, n = faces_[f].corners.size(); k < n; ++k)
-        leaves_[directed(faces_[f].corners[k], faces_[f].corners[(k + 1) % n])] = {f, k};
+        leaves_.emplace(directed(faces_[f].corners[k], faces_[f].corners[(k + 1) % n]), std::pair(f, k));
   }
 
   // The side from one corner of a new face to the next.
@@ -56,12 +56,13 @@ class RefinementTracker::Step {
   }
   // The face that has corner `at` between `before` and `after`.
   Parent parent(std::uint32_t before, std::uint32_t at, std::uint32_t after) const {
-    const auto found = leaves_.find(directed(at, after));
-    if (found == leaves_.end()) broken("a face without a parent");
-    const auto [f, k] = found->second;
-    const std::size_t n = faces_[f].corners.size();
-    if (faces_[f].corners[(k + n - 1) % n] != before) broken("two edges that have no face in common");
-    return {faces_[f], k};
+    const auto [begin, end] = leaves_.equal_range(directed(at, after));
+    for (auto found = begin; found != end; ++found) {
+      const auto [f, k] = found->second;
+      const std::size_t n = faces_[f].corners.size();
+      if (faces_[f].corners[(k + n - 1) % n] == before) return {faces_[f], k};
+    }
+    broken("two edges that have no face in common");
   }
 
  private:
@@ -76,7 +77,7 @@ class RefinementTracker::Step {
   const std::vector<Face>& faces_;
   std::uint32_t old_;
   std::vector<std::array<std::uint32_t, 2>> ends_;
-  std::unordered_map<std::uint64_t, std::pair<std::size_t, std::size_t>> leaves_;  // face and corner
+  std::unordered_multimap<std::uint64_t, std::pair<std::size_t, std::size_t>> leaves_;  // face and corner
 };
 
 RefinementTracker::RefinementTracker(const lc_mesh& control)
@@ -154,13 +155,13 @@ std::vector<std::int32_t> RefinementTracker::triangle_face() const {
   return result;
 }
 
-std::vector<Place> RefinementTracker::places() const {
+std::vector<Place> RefinementTracker::places(Namer namer) const {
   std::vector<Place> result(static_cast<std::size_t>(vertex_count_), {-1, 0, 0, 0});
   for (const Face& face : faces_)
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
       // A control face that is no quad has a part at each corner.
       const bool whole = quads_ && face.corners.size() != 4;
-      if (Place& p = result[face.corners[k]]; p.face < 0)
+      if (Place& p = result[face.corners[k]]; p.face < 0 || namer == Namer::kLast)
         p = {face.control, face.at[k][0], face.at[k][1], face.denominator,
              whole ? static_cast<std::int32_t>(k) : face.part};
     }

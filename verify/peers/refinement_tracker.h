@@ -19,8 +19,8 @@ namespace limitcheck::verify {
 /// Follows a mesh through steps of Loop's scheme, which split each triangle in four, or of Catmull and Clark's,
 /// which split each face of n corners in n quads. All it relies on is that old vertices keep their numbers and
 /// new ones are appended: a new vertex on an edge has exactly two old neighbours, the ends of the edge that it
-/// divides; and two edges in a row, of which a new face has the middles, have one face between them. No
-/// geometry.
+/// divides; and two edges in a row, of which a new face has the middles, have one face between them. The
+/// mesh need not be a manifold. No geometry.
 class RefinementTracker {
  public:
   explicit RefinementTracker(const lc_mesh& control);
@@ -35,8 +35,9 @@ class RefinementTracker {
   /// Every face in triangles around its first corner, and the control face of each.
   std::vector<std::array<std::uint32_t, 3>> triangles() const;
   std::vector<std::int32_t> triangle_face() const;
-  /// One place for each vertex, the first in the order of faces.
-  std::vector<Place> places() const;
+  /// One place for each vertex: that by which the first or the last face that has it names it.
+  enum class Namer { kFirst, kLast };
+  std::vector<Place> places(Namer namer = Namer::kFirst) const;
 
  private:
   using Steps = std::array<std::uint32_t, 2>;  // in units of 1 / denominator

@@ -26,7 +26,6 @@
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/relations/variants.h"
 #include "verify/row/test_rows.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

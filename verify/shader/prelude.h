@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The GLSL that stands before and behind a shader of the shader door: verify/subject/SHADERS.md says what it gives.
+// What a shader of the shader door is given (verify/subject/SHADERS.md): the control mesh as numbers in one buffer, and
+// the GLSL before and behind it that reads them.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -9,6 +12,15 @@
 #include "verify/shader/source.h"
 
 namespace limitcheck::verify {
+
+/// 3 V coordinates. Of each half-edge (h begins at corner h): vertex, twin (-1 at the boundary), edge, face, sharpness
+/// (10 at the boundary). The first half-edge of each face, and C. The sharpness of each vertex. Coordinates and
+/// sharpness are bits of floats. The mesh is an oriented manifold.
+struct HalfEdges {
+  std::vector<std::int32_t> words;
+  std::array<std::int64_t, 4> counts{};  // V F C E
+  explicit HalfEdges(const lc_mesh& mesh);
+};
 
 /// The programs of a file for one scheme: one, or one for each pass. Throws SubjectError(LC_INVALID_INPUT), with the
 /// file's line.

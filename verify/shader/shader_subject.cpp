@@ -15,7 +15,6 @@
 
 #include "verify/gl/context.h"
 #include "verify/peers/evaluated_faces.h"
-#include "verify/shader/half_edges.h"
 #include "verify/shader/prelude.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/devices.h"
@@ -140,26 +139,13 @@ class ShaderSubject {
         allocate_output<float>(request, out, patterns.vertices(), patterns.triangles(), the_source->normals,
                                /*corners=*/mesh_.scheme == LC_SCHEME_CATMULL_CLARK);
     std::vector<std::int32_t> words = half_edges_.words;
-    for (std::int64_t f = 0, vertex = 0; f < patterns.faces(); ++f) {
-      auto [pattern, first, triangle] = patterns.of(f);
-      if (pattern == nullptr) continue;
-      const auto face = static_cast<std::int32_t>(f);
-      for (const FaceDomain::Point& p : pattern->points) {
-        const lc_provenance at{face, static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
-                               pattern->denominator};
-        output.provenance[vertex] = at;
-        if (output.corner != nullptr) output.corner[vertex] = p.part;
-        ++vertex;
-        words.insert(words.end(),
-                     {face, p.part, static_cast<std::int32_t>(p.i), static_cast<std::int32_t>(p.j),
-                      static_cast<std::int32_t>(pattern->denominator)});
-      }
-      for (const auto& corners : pattern->triangles) {
-        for (std::size_t c = 0; c < 3; ++c)
-          output.triangles[3 * triangle + static_cast<std::int64_t>(c)] =
-              static_cast<std::uint32_t>(first) + corners[c];
-        output.triangle_face[triangle++] = face;
-      }
+    for (std::int64_t f = 0; f < patterns.faces(); ++f) {
+      write_pattern(patterns, f, output);
+      if (const FacePattern* const pattern = patterns.of(f).pattern; pattern != nullptr)
+        for (const FaceDomain::Point& p : pattern->points)
+          words.insert(words.end(),
+                       {static_cast<std::int32_t>(f), p.part, static_cast<std::int32_t>(p.i),
+                        static_cast<std::int32_t>(p.j), static_cast<std::int32_t>(pattern->denominator)});
     }
     const GuardedBuffer input(words);
     const GuardedBuffer buffer = output_buffer(patterns.vertices(), 0);

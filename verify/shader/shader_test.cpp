@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "verify/cli/command_test.h"
-#include "verify/shader/half_edges.h"
+#include "verify/shader/prelude.h"
 #include "verify/shader/source.h"
 #include "verify/subject/subject_error.h"
 

@@ -55,30 +55,20 @@ class Parser {
     left_.remove_prefix(word.size());
     return true;
   }
-  std::int64_t sum() {
-    std::int64_t value = product();
-    for (;;) {
-      if (take("+"))
-        value = checked(value + product());
-      else if (take("-"))
-        value = checked(value - product());
-      else
-        return value;
+  std::int64_t sum() { return chain(&Parser::product, "+-"); }
+  std::int64_t product() { return chain(&Parser::power, "*/"); }
+  std::int64_t chain(std::int64_t (Parser::*operand)(), std::string_view signs) {
+    std::int64_t value = (this->*operand)();
+    while (!left_.empty() && signs.find(left_[0]) != std::string_view::npos) {
+      const char sign = left_[0];
+      left_.remove_prefix(1);
+      const std::int64_t other = (this->*operand)();
+      if (sign == '/' && other == 0) wrong();
+      value = sign == '*'   ? times(value, other)
+              : sign == '/' ? value / other
+                            : checked(sign == '+' ? value + other : value - other);
     }
-  }
-  std::int64_t product() {
-    std::int64_t value = power();
-    for (;;) {
-      if (take("*")) {
-        value = times(value, power());
-      } else if (take("/")) {
-        const std::int64_t by = power();
-        if (by == 0) wrong();
-        value /= by;
-      } else {
-        return value;
-      }
-    }
+    return value;
   }
   std::int64_t power() {
     const std::int64_t base = one();

@@ -85,17 +85,7 @@ class FaceDomain {
   constexpr Point corner_point(int k, std::int64_t n) const { return on_side(k, 0, n); }
   /// 0 <= along <= n.
   constexpr Point on_side(int side, std::int64_t along, std::int64_t n) const {
-    switch (shape_) {
-      case Shape::kTriangle:
-        return side == 0 ? Point{along, 0} : side == 1 ? Point{n - along, along} : Point{0, n - along};
-      case Shape::kQuad:
-        return side == 0   ? Point{along, 0}
-               : side == 1 ? Point{n, along}
-               : side == 2 ? Point{n - along, n}
-                           : Point{0, n - along};
-      case Shape::kPolygon:
-        break;
-    }
+    if (shape_ != Shape::kPolygon) return moved({along, 0}, n, {side});
     return 2 * along <= n ? Point{along, 0, side} : Point{0, n - along, next(side)};
   }
   /// The side on which a point of the domain lies, of a corner the side that begins there; nothing inside.

@@ -17,7 +17,6 @@
 #include "data/error.h"
 #include "data/io/write.h"
 #include "data/validate.h"
-#include "verify/subject/control_mesh.h"
 #include "verify/subject/devices.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/shell_word.h"

@@ -64,10 +64,10 @@ struct SharpPieces {
     double size;
     bool rough;
   };
-  template <class Regular>
-  Bound bound(std::size_t face, Regular regular) const {
+  Bound bound(std::size_t face, std::size_t first) const {
     if (!rough[face])
-      if (const std::optional<double> size = regular(cut)) return {*size, false};
+      if (const auto size = regular_bound(cut.topology, cut.positions, face, first, cut.states))
+        return {*size, false};
     return {hull(static_cast<std::int32_t>(face)), true};
   }
   // The size of what the surface over a face depends on, a bound for all pieces of it.
@@ -83,6 +83,8 @@ struct SharpPieces {
     return 2 * radius;
   }
 };
+
+using Quad = std::array<std::int32_t, 4>;
 
 // A quad of a face's lattice, its corners from the one at which its diagonal begins: the one nearest to a corner of
 // the face.
@@ -104,21 +106,20 @@ QuadCell cell(int i, int j, int n) {
 // The corners of its two triangles.
 constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
 
-// The face of the cut mesh that is a given one of the mesh, and its corners. The third corner of a quad has few faces.
-std::pair<std::int32_t, Quad> cut_face(const SharpPieces& sharp, std::size_t, const Quad& quad) {
-  for (const std::int32_t f : sharp.topology.sector(quad[2]).faces) {
-    const auto whole = sharp.topology.faces()[f], cut = sharp.cut.topology.faces()[f];
-    const auto at = std::find(whole.begin(), whole.end(), quad[0]) - whole.begin();
-    if (at == 4 || whole[(at + 2) % 4] != quad[2]) continue;
-    Quad corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = cut[(static_cast<std::size_t>(at) + k) % 4];
-    return {f, corners};
+// The face of the refined mesh that is a given cell of the lattice, and the corner of it at which the cell begins. The
+// third corner of a quad has few faces.
+std::pair<std::size_t, std::size_t> face_of(const reference::Topology& topology, std::size_t,
+                                            const Quad& quad) {
+  for (const std::int32_t f : topology.sector(quad[2]).faces) {
+    const auto face = topology.faces()[f];
+    const auto at = static_cast<std::size_t>(std::ranges::find(face, quad[0]) - face.begin());
+    if (at < 4 && face[(at + 2) % 4] == quad[2]) return {f, at};
   }
   throw std::logic_error("a quad of the lattice is no face of the refined mesh");
 }
-std::pair<std::int32_t, reference::Triangle> cut_face(const SharpPieces& sharp, std::size_t face,
-                                                      const reference::Triangle&) {
-  return {static_cast<std::int32_t>(face), reference::triangle_of(sharp.cut.topology, face)};
+std::pair<std::size_t, std::size_t> face_of(const reference::Topology&, std::size_t cell,
+                                            const reference::Triangle&) {
+  return {cell, 0};
 }
 
 }  // namespace
@@ -200,13 +201,11 @@ void SurfaceLattice::subdivide(const data::ControlMesh& mesh, Refined& refined,
     SharpPieces::Bound bound{0, false};
     if (irregular >= 0) {
       bound.size = bounds_[irregular].corner[0];
-    } else if (!sharp) {
-      bound.size = regular_bound(topology, refined.positions(), corners).value();
     } else {
-      const auto cut = cut_face(*sharp, c, corners);
-      bound = sharp->bound(static_cast<std::size_t>(cut.first), [&](const CutMesh& whole) {
-        return regular_bound(whole.topology, whole.positions, cut.second, whole.states);
-      });
+      const auto [face, first] = face_of(topology, c, corners);
+      bound = sharp ? sharp->bound(face, first)
+                    : SharpPieces::Bound{regular_bound(topology, refined.positions(), face, first).value(),
+                                         false};
     }
     for (std::size_t half = 0; half < kEach; ++half) {
       const std::size_t t = kEach * c + half;

@@ -86,13 +86,10 @@ Chart::Affine Domain::turned(std::int32_t face, int k, const Chart::Affine& l, d
     }
     return there;
   }
-  // Along the side and away from it, counted from where it begins; then from the other face.
-  const auto rest = [&](double x) { return whole - x; };
-  const double along = rest(k == 0 ? l[1] : k == 1 ? l[2] : k == 2 ? rest(l[1]) : rest(l[2]));
-  const double away = -(k == 0 ? l[2] : k == 1 ? rest(l[1]) : k == 2 ? rest(l[2]) : l[1]);
-  const int side = side_across(face, k);
-  const double u = side == 0 ? along : side == 1 ? rest(away) : side == 2 ? rest(along) : away;
-  const double v = side == 0 ? away : side == 1 ? along : side == 2 ? rest(away) : rest(along);
+  // Along the side and away from it, counted from where it begins; then from the other face, and turned back.
+  const auto [along, away] = chart().from_corner(k, l, whole);
+  const int back = (4 - side_across(face, k)) % 4;
+  const auto [u, v] = chart().from_corner(back, {whole, whole - along, -away}, whole);
   return {whole - u - v, u, v};
 }
 

@@ -49,23 +49,6 @@ Part step(Refined refined, std::size_t count) {
   return around(refined.topology(), refined.positions(), 0, first);
 }
 
-// x = a[0] l1 + a[1] l2 + .., y = b[0] l1 + b[1] l2 + ..: the coordinates seen from a corner.
-struct FromCorner {
-  double x, y;
-  std::array<double, 2> a, b;
-};
-FromCorner from_corner(data::Scheme scheme, int corner, const Chart::Affine& l) {
-  const double u = l[1], v = l[2];
-  if (corner == 0) return {u, v, {1, 0}, {0, 1}};
-  if (scheme == data::Scheme::kLoop) {
-    if (corner == 1) return {v, std::max(0., l[0]), {0, 1}, {-1, -1}};
-    return {std::max(0., l[0]), u, {-1, -1}, {1, 0}};
-  }
-  if (corner == 1) return {v, 1 - u, {0, 1}, {-1, 0}};
-  if (corner == 2) return {1 - u, 1 - v, {-1, 0}, {0, -1}};
-  return {1 - v, u, {0, -1}, {1, 0}};
-}
-
 bool has_other_faces(const data::ControlMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     if (mesh.faces[f].size() != 4) return true;
@@ -92,7 +75,7 @@ class HighValenceVertex {
   /// Of a mesh without sharp edges. O(faces at the vertex) steps, and what the evaluator costs, for each level.
   HighValenceVertex(const data::ControlMesh& mesh, const Topology& topology, data::Scheme scheme,
                     std::int32_t vertex)
-      : scheme_(scheme) {
+      : loop_(scheme == data::Scheme::kLoop) {
     const auto sector = topology.sector(vertex).faces;
     faces_.assign(sector.begin(), sector.end());
     std::sort(faces_.begin(), faces_.end());
@@ -102,7 +85,7 @@ class HighValenceVertex {
     levels_.reserve(kLevels);
     for (int level = 0; level < kLevels; ++level) {
       end_if_interrupted();
-      if (scheme == data::Scheme::kLoop)
+      if (loop_)
         part = step(reference::RefinedMesh<double>(part.positions, data::Triangles(part.faces).to_vector()),
                     faces_.size());
       else
@@ -120,23 +103,24 @@ class HighValenceVertex {
   std::optional<reference::SurfacePoint<double>> evaluate(std::int32_t face, int corner,
                                                           const Chart::Affine& at,
                                                           reference::Order order) const {
-    const FromCorner p = from_corner(scheme_, corner, at);
+    const Chart chart = loop_ ? Chart::triangle() : Chart::square();
+    const auto [px, py] = chart.from_corner(corner, {std::max(0., at[0]), at[1], at[2]}, 1);
     // How often the distance from the corner, measured as the schemes do, is to be doubled to exceed 1/2.
-    const double far = scheme_ == data::Scheme::kLoop ? p.x + p.y : std::max(p.x, p.y);
+    const double far = loop_ ? px + py : std::max(px, py);
     if (!(far > 0) || far > .5) return std::nullopt;
     int exponent = 0;
     const double mantissa = std::frexp(far, &exponent);
     const int steps = mantissa == .5 ? 1 - exponent : -exponent;
     if (steps < 1 || steps > kLevels) return std::nullopt;
-    double x = std::ldexp(p.x, steps), y = std::ldexp(p.y, steps);
-    if (scheme_ == data::Scheme::kLoop && y > 1 - x) (x > y ? y : x) = 1 - (x > y ? x : y);
+    double x = std::ldexp(px, steps), y = std::ldexp(py, steps);
+    if (loop_ && y > 1 - x) (x > y ? y : x) = 1 - (x > y ? x : y);
     const auto which = std::lower_bound(faces_.begin(), faces_.end(), face) - faces_.begin();
     const auto& surface = *levels_[static_cast<std::size_t>(steps - 1)].surface;
     auto s = surface.evaluate(static_cast<int>(which), 0, x, y, order);
     reference::scale_derivatives(s, std::ldexp(1.0, steps));
     const auto turned = s;
-    const auto [a1, a2] = p.a;
-    const auto [b1, b2] = p.b;
+    const auto [a1, b1] = chart.from_corner(corner, {-1, 1, 0}, 0);  // of x and y by either coordinate
+    const auto [a2, b2] = chart.from_corner(corner, {-1, 0, 1}, 0);
     s.d1 = turned.d1 * a1 + turned.d2 * b1;
     s.d2 = turned.d1 * a2 + turned.d2 * b2;
     s.t1 = s.d1, s.t2 = s.d2;
@@ -152,7 +136,7 @@ class HighValenceVertex {
     std::unique_ptr<reference::Surface> surface;
   };
 
-  data::Scheme scheme_;
+  bool loop_;
   std::vector<std::int32_t> faces_;  // at the vertex, ascending; they are the first of each level's, in order
   std::vector<Level> levels_;        // after 1, 2 .. steps
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bounds of pieces against the surface itself, densely sampled.
-// Evaluation near vertices of very many faces against Stam's method.
+// Evaluation on the domain, near vertices of very many faces too, against that on the control mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -247,7 +247,7 @@ TEST(Domain, APointOfACommonSideOrCornerHasANameInBothFaces) {
   });
 }
 
-TEST(HighValenceVertex, GivesThePointsAndDerivativesOfStamsMethod) {
+TEST(LimitSurface, HasThePointsAndDerivativesOfTheControlMesh) {
   double worst = 0, worst_first = 0, worst_second = 0;
   int near = 0;
   for (const char* name :

@@ -1,41 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Parts of refined control meshes, and such with sharp edges and vertices, cut for the bounds of their pieces. Heavy,
-// as sharpness.h is: include from .cpp files.
+// Refined control meshes with sharp edges and vertices, cut for the bounds of their pieces. Heavy, as sharpness.h is:
+// include from .cpp files.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "reference/mesh/sharpness.h"
 
 namespace limitcheck::verify {
-
-/// Some faces of a mesh in their order, their vertices numbered anew as they appear, after a given one.
-struct Part {
-  std::vector<reference::Vec3<double>> positions;
-  data::Faces faces;
-
-  Part(const reference::Topology& topology, std::span<const reference::Vec3<double>> points,
-       std::int32_t first, std::span<const std::int32_t> chosen)
-      : positions{points[first]} {
-    std::unordered_map<std::int32_t, std::int32_t> number{{first, 0}};
-    std::vector<std::int32_t> corners;
-    for (const std::int32_t f : chosen) {
-      const auto face = topology.faces()[f];
-      corners.assign(face.begin(), face.end());
-      for (std::int32_t& v : corners) {
-        const auto [at, is_new] = number.try_emplace(v, static_cast<std::int32_t>(positions.size()));
-        if (is_new) positions.push_back(points[v]);
-        v = at->second;
-      }
-      faces.push_back(corners);
-    }
-  }
-};
 
 /// A mesh with a copy of the points of each edge that stays sharp for either of its sides. Its faces are
 /// those of the mesh, in their order, and its first vertices too. Over faces without semi-sharp tags it has

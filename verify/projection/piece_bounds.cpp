@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "reference/catmull_clark/refined_mesh.h"
@@ -81,8 +83,10 @@ std::optional<double> bound_of_quad(const Topology& topology, Points positions, 
 }
 
 // A vertex (number 0) with the faces around it and around all vertices of these, refined again and
-// again on the spot.
-struct Surroundings : Part {
+// again on the spot; the others are numbered as they appear.
+struct Surroundings {
+  std::vector<Point> positions;
+  data::Faces faces;
   reference::SharpTags tags;
 };
 
@@ -101,17 +105,26 @@ void add_lasting_edges(reference::SharpTags& tags, const reference::Topology& to
 
 Surroundings surroundings(const Topology& topology, Points positions, std::int32_t vertex,
                           const SharpVertexOf& sharp = {}) {
-  std::vector<std::int32_t> faces;
+  std::set<std::int32_t> faces;
   for (const std::int32_t near : topology.sector(vertex).faces)
     for (const std::int32_t v : topology.faces()[near])
       if (v != vertex)
-        for (const std::int32_t f : topology.sector(v).faces) faces.push_back(f);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        for (const std::int32_t f : topology.sector(v).faces) faces.insert(f);
 
-  Surroundings s{{topology, positions, vertex, faces}, {}};
-  for (std::size_t k = 0; k < faces.size() && sharp.sharpness != nullptr; ++k)
-    add_lasting_edges(s.tags, topology, *sharp.sharpness, faces[k], s.faces[k]);
+  Surroundings s{{positions[vertex]}, {}, {}};
+  std::unordered_map<std::int32_t, std::int32_t> number{{vertex, 0}};
+  std::vector<std::int32_t> corners;
+  for (const std::int32_t f : faces) {
+    const auto face = topology.faces()[f];
+    corners.assign(face.begin(), face.end());
+    for (std::int32_t& v : corners) {
+      const auto [at, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
+      if (is_new) s.positions.push_back(positions[v]);
+      v = at->second;
+    }
+    s.faces.push_back(corners);
+    if (sharp.sharpness != nullptr) add_lasting_edges(s.tags, topology, *sharp.sharpness, f, corners);
+  }
   if (sharp.held) s.tags.vertices.push_back({0, 10.0});
   return s;
 }

@@ -103,7 +103,16 @@ QuadCell cell(int i, int j, int n) {
   return c;
 }
 
-// The corners of its two triangles.
+// A triangle of a face's lattice of n steps: first the upright ones, rows of equal j, then the others.
+std::array<std::array<int, 2>, 3> triangle(int number, int n) {
+  const int upright = n * (n + 1) / 2;
+  int i = number < upright ? number : number - upright, j = 0;
+  for (int row = number < upright ? n : n - 1; i >= row; --row, ++j) i -= row;
+  if (number < upright) return {{{i, j}, {i + 1, j}, {i, j + 1}}};
+  return {{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
+}
+
+// The corners of the two triangles of a quad.
 constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
 
 // The face of the refined mesh that is a given cell of the lattice, and the corner of it at which the cell begins. The
@@ -230,40 +239,25 @@ std::array<Vector, 3> SurfaceLattice::corners(std::size_t index) const {
 }
 
 Piece SurfaceLattice::piece(std::size_t index) const {
-  const auto n = std::int64_t{1} << depth_;
+  const int n = 1 << depth_;
   const double s = std::ldexp(1.0, -depth_);
+  const std::size_t cell_number = chart_.is_square() ? index / 2 : index;
+  const auto within_face = static_cast<int>(cell_number & ((std::size_t{1} << (2 * depth_)) - 1));
   Piece p;
   p.chart = chart_;
+  p.face = static_cast<std::int32_t>(cell_number >> (2 * depth_));
   p.corner = corners(index);
   p.deviation = deviation_[index];
   p.irregular = irregular_[index];
   p.rough = !rough_.empty() && rough_[index] != 0;
+  std::array<std::array<int, 2>, 3> at{};
   if (chart_.is_square()) {
-    const auto quad = static_cast<std::int64_t>(index / 2), within_face = quad % (n * n);
-    p.face = static_cast<std::int32_t>(quad / (n * n));
-    const QuadCell its =
-        cell(static_cast<int>(within_face % n), static_cast<int>(within_face / n), static_cast<int>(n));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& [i, j] = its[kHalves[index % 2][k]];
-      p.at[k] = Chart::at(i * s, j * s);
-    }
-    return p;
+    const QuadCell quad = cell(within_face % n, within_face / n, n);
+    for (std::size_t k = 0; k < 3; ++k) at[k] = quad[kHalves[index % 2][k]];
+  } else {
+    at = triangle(within_face, n);
   }
-  // Of a triangle, first the upright triangles, rows of equal j, then the others.
-  const auto within = static_cast<std::int64_t>(index) % (n * n);
-  const std::int64_t upright = n * (n + 1) / 2;
-  std::int64_t left = within < upright ? within : within - upright, i = 0, j = 0;
-  for (std::int64_t row = within < upright ? n : n - 1; left >= row; --row, ++j) left -= row;
-  i = left;
-  p.face = static_cast<std::int32_t>(static_cast<std::int64_t>(index) / (n * n));
-  const auto at = [&](std::int64_t a, std::int64_t b) {
-    return Chart::Affine{static_cast<double>(n - a - b) * s, static_cast<double>(a) * s,
-                         static_cast<double>(b) * s};
-  };
-  if (within < upright)
-    p.at = {at(i, j), at(i + 1, j), at(i, j + 1)};
-  else
-    p.at = {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+  for (std::size_t k = 0; k < 3; ++k) p.at[k] = Chart::at(at[k][0] * s, at[k][1] * s);
   return p;
 }
 

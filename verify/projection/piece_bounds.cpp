@@ -10,8 +10,9 @@
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/catmull_clark/ringed_quad.h"
 #include "reference/loop/ringed_face.h"
+#include "reference/mesh/cut_mesh.h"
 #include "reference/mesh/topology.h"
-#include "verify/projection/cut_mesh.h"
+#include "verify/projection/refine_tagged.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -174,8 +175,8 @@ CornerBounds bounds_around(const Topology& topology, Points positions, std::int3
   for (int step = 1; step <= kSteps; ++step) {
     auto fine = Pieces::mesh_of(now);
     const auto sharpness = refine_tagged(fine, now.tags, 1);
-    std::optional<CutMesh> cut;
-    if (sharpness) cut.emplace(fine.topology(), fine.positions(), *sharpness);
+    std::optional<reference::CutMesh<double>> cut;
+    if (sharpness) cut.emplace(reference::TaggedMesh<double>{fine.topology(), fine.positions(), *sharpness});
     const std::vector<Point> fine_limits = fine.limits().positions;
     for (std::size_t f = 0; f < now.faces.size(); ++f) {
       const auto face = std::as_const(now.faces)[f];

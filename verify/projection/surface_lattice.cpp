@@ -9,9 +9,10 @@
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
+#include "reference/mesh/cut_mesh.h"
 #include "reference/mesh/topology.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/projection/cut_mesh.h"
+#include "verify/projection/refine_tagged.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -26,15 +27,14 @@ struct SharpPieces {
   const reference::Topology& topology;
   const Points& positions;
   const reference::Sharpness& sharpness;
-  CutMesh cut;
-  std::vector<bool> rough;  // of each face
+  reference::CutMesh<double> cut;  // has the faces of the mesh, corner by corner
+  const std::vector<bool>& rough = cut.needs_a_step;
 
   SharpPieces(const reference::Topology& whole, const Points& points, const reference::Sharpness& sharp)
       : topology(whole),
         positions(points),
         sharpness(sharp),
-        cut(whole, points, sharp),
-        rough(sharp.needs_a_step(whole)) {}
+        cut(reference::TaggedMesh<double>{whole, points, sharp}) {}
 
   // Whether bounds are wanted for the vertex: in one of its sectors it is extraordinary, and no semi-sharp
   // tags are near.
@@ -48,10 +48,9 @@ struct SharpPieces {
             if (rough[other]) return false;
     if (cut.states[v] != reference::VertexState::kOrdinary) return true;
     return std::any_of(sector.begin(), sector.end(), [&](std::int32_t f) {
-      const auto corners = cut.topology.faces()[f];
-      const std::int32_t copy =
-          *std::find_if(corners.begin(), corners.end(), [&](std::int32_t c) { return cut.origin[c] == v; });
-      const reference::Sector its = cut.topology.sector(copy);
+      const auto corners = topology.faces()[f];
+      const auto at = static_cast<std::size_t>(std::ranges::find(corners, v) - corners.begin());
+      const reference::Sector its = cut.topology.sector(cut.topology.faces()[f][at]);
       return its.faces.size() != (its.closed ? inside : boundary);
     });
   }

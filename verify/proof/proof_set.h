@@ -156,11 +156,10 @@ class ProofReport {
   const std::vector<CertifiedLine> certified_;
 };
 
-/// The same as JSON that loses nothing, to go on with and to merge.
-nlohmann::json proof_rows_json(const std::vector<ProofRow>& rows);
-std::vector<ProofRow> proof_rows_of(const nlohmann::json& json);
-
-nlohmann::json certified_json(const std::vector<CertifiedLine>& lines);
-std::vector<CertifiedLine> certified_of(const nlohmann::json& json);
+/// Rows, and certified lines, as JSON that loses nothing, to go on with and to merge.
+template <class T>
+nlohmann::json list_json(const std::vector<T>& values);
+template <class T>
+std::vector<T> list_of(const nlohmann::json& json);
 
 }  // namespace limitcheck::verify

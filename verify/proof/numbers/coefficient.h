@@ -6,9 +6,9 @@
 
 #include <array>
 #include <boost/operators.hpp>
+#include <concepts>
 #include <cstdint>
 #include <cstdlib>
-#include <type_traits>
 
 #include "data/error.h"
 #include "reference/number/number_exact.h"
@@ -135,6 +135,10 @@ struct Surd : boost::ordered_field_operators<Surd> {
   friend bool operator<(const Surd& x, const Surd& y) { return x.approximation() < y.approximation(); }
 };
 
+template <class C>
+concept Weight = std::same_as<C, Residue> || std::same_as<C, Surd> || std::same_as<C, reference::Rational> ||
+    std::same_as<C, reference::Decimal50>;
+
 /// Constructs weights from ratios, cosines and sines, and compares them.
 template <class C>
 struct Coefficient {
@@ -146,7 +150,7 @@ struct Coefficient {
   static double approximate(const C& c) { return T::approximate(c); }
   static bool is_zero(const C& c) { return c.is_zero(); }
   static bool equal(const C& a, const C& b) {
-    if constexpr (std::is_same_v<C, reference::Decimal50>) return abs(a - b) < kTolerance;
+    if constexpr (std::same_as<C, reference::Decimal50>) return abs(a - b) < kTolerance;
     return a == b;
   }
 };

@@ -34,9 +34,6 @@ fast::StarWeights<C> rational_star_weights(int faces, bool open, fast::VertexKin
 namespace limitcheck::fast {
 
 template <>
-struct NumberTraits<reference::Rational> : WeightTraits<reference::Rational> {};
-
-template <>
 inline StarWeights<reference::Rational> star_weights(int faces, bool open, VertexKind kind) {
   return verify::rational_star_weights<reference::Rational>(faces, open, kind);
 }

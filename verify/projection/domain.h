@@ -83,7 +83,7 @@ class Chart {
   /// The corner in which a point lies exactly, or -1.
   constexpr int corner_at(const Affine& l) const {
     for (int k = 0; k < corners(); ++k)
-      if (square_ ? height(k, l) == 0 && height((k + 3) % 4, l) == 0 : l[k] == 1) return k;
+      if (from_corner(k, l, 1) == std::array{0., 0.}) return k;
     return -1;
   }
   /// Within a tenth of a corner.

@@ -94,7 +94,7 @@ void prove_tasks(const verify::ProofSet& set, verify::Journal& journal, Progress
       [&](const verify::ProofProgress& done) {
         if (!done.rows->empty())
           journal.keep(units[static_cast<std::size_t>(done.latest - tasks.data())],
-                       verify::proof_rows_json(*done.rows));
+                       verify::list_json(*done.rows));
         progress.show(static_cast<std::size_t>(100 * done.share), 100,
                       fmt::format("proof {} of {}, {} {}", done.tasks, tasks.size(), done.latest->group,
                                   done.latest->neighbourhood.name));
@@ -107,7 +107,7 @@ void certify(const verify::ProofSet& set, verify::Journal& journal) {
   if (!journal.plan().has(unit) || journal.recall(unit) != nullptr || verify::interrupted() != 0) return;
   auto lines = set.certified;
   verify::certify(lines, set.certified_points);
-  journal.keep(unit, verify::certified_json(lines));
+  journal.keep(unit, verify::list_json(lines));
 }
 
 int report_proofs(const verify::PartReport& done, const std::string& json, bool each) {
@@ -123,10 +123,10 @@ int report_proofs(const verify::PartReport& done, const std::string& json, bool 
   std::vector<verify::CertifiedLine> certified;
   for (const auto& [unit, result] : done.results) {
     if (unit == rows.size()) {
-      certified = verify::certified_of(result);
+      certified = verify::list_of<verify::CertifiedLine>(result);
       continue;
     }
-    rows[unit] = verify::proof_rows_of(result);
+    rows[unit] = verify::list_of<verify::ProofRow>(result);
     for (const verify::ProofRow& row : rows[unit])
       if (row.topology != set.tasks[unit].neighbourhood.name)
         throw data::ArgumentError(fmt::format("unit {} is of {}, and has the proof of {}", unit,

@@ -179,7 +179,7 @@ int tessellate(const TessellateArguments& a) {
   const fast::DepthOptions options = depth_options(a);
   const fast::Camera view = camera(a);
   view.validate();
-  if (!a.output.empty()) verify::output_format(a.output);  // before any work
+  if (!a.output.empty()) verify::check_extension(a.output);  // before any work
 
   Progress progress;
   Timings timings;

@@ -4,10 +4,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
-#include <map>
 #include <string_view>
 #include <utility>
 
@@ -18,6 +16,7 @@
 #include "data/splitmix64.h"
 #include "data/validate.h"
 #include "verify/evidence/cells.h"
+#include "verify/evidence/lattice.h"
 #include "verify/host/host.h"
 #include "verify/subject/lent_mesh.h"
 
@@ -193,48 +192,34 @@ std::vector<Key> keys_in(std::string_view text) {
   return keys;
 }
 
-// What the subject says that it does of a scheme: one entry, or none if it does not do it.
-std::vector<Does> does_of(const AuditSubject& subject, data::Scheme scheme) {
-  const lc_capabilities c = capabilities(*subject.subject, subject.options, scheme);
-  return does(c, scheme) ? std::vector<Does>{{scheme, c.sharp}} : std::vector<Does>{};
+// What the subject says that it does of these schemes; and of one over which it breaks down?
+enum class Broken : std::uint8_t { kDoesNot, kDoesWithoutSharpEdges };
+std::vector<Does> does_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes,
+                          Broken broken) {
+  std::vector<Does> all;
+  for (const data::Scheme scheme : schemes) try {
+      const lc_capabilities c = capabilities(*subject.subject, subject.options, scheme);
+      if (does(c, scheme)) all.push_back({scheme, c.sharp});
+    } catch (const std::exception&) {
+      if (broken == Broken::kDoesWithoutSharpEdges) all.push_back({scheme, 0});
+    }
+  return all;
 }
 
 }  // namespace
 
 std::vector<Does> schemes_of(const AuditSubject& subject, const std::vector<data::Scheme>& schemes) {
-  std::vector<Does> all;
-  for (const data::Scheme scheme : schemes) try {
-      for (const Does& d : does_of(subject, scheme)) all.push_back(d);
-    } catch (const std::exception&) {
-      all.push_back({scheme, 0});
-    }
-  return all;
+  return does_of(subject, schemes, Broken::kDoesWithoutSharpEdges);
 }
 
 std::set<std::uint64_t> kinds_of_edges(const AuditMesh& audited) {
   const data::ControlMesh& mesh = audited.mesh;
-  struct Edge {
-    int faces = 0;
-    std::array<std::size_t, 2> corners{};
-    std::array<int, 2> depth{};
-  };
-  std::map<std::pair<std::int32_t, std::int32_t>, Edge> edges;
+  const Lattice lattice(mesh, audited.scheme(), 0);
   std::vector<std::uint64_t> faces_at(mesh.positions.size());
   std::vector<bool> border(mesh.positions.size()), tagged(mesh.positions.size());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto corners = mesh.faces[f];
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      ++faces_at[corners[k]];
-      Edge& e = edges[std::minmax(std::int32_t{corners[k]}, std::int32_t{corners[(k + 1) % corners.size()]})];
-      if (e.faces < 2) {
-        e.corners[e.faces] = corners.size();
-        e.depth[e.faces] = audited.face_depth.empty() ? 0 : audited.face_depth[f];
-      }
-      ++e.faces;
-    }
-  }
-  for (const auto& [ends, e] : edges)
-    if (e.faces < 2) border[ends.first] = border[ends.second] = true;
+  for (const std::int32_t v : mesh.faces.corners()) ++faces_at[v];
+  for (const Lattice::Edge& e : lattice.edges())
+    if (e.on_boundary()) border[e.a] = border[e.b] = true;
   std::set<std::pair<std::int32_t, std::int32_t>> sharp;
   for (const data::SharpEdge& e : mesh.sharpness.edges) sharp.insert(std::minmax(e.a, e.b));
   for (const data::SharpVertex& v : mesh.sharpness.vertices) tagged[v.vertex] = true;
@@ -243,13 +228,18 @@ std::set<std::uint64_t> kinds_of_edges(const AuditMesh& audited) {
   const auto end = [&](std::int32_t v) {
     return std::min<std::uint64_t>(faces_at[v], 63) << 2 | (border[v] ? 1U : 0U) | (tagged[v] ? 2U : 0U);
   };
-  for (const auto& [ends, e] : edges) {
-    const auto [low, high] = std::minmax({end(ends.first), end(ends.second)});
-    const auto [few, many] = std::minmax(e.corners[0], e.corners[1]);
+  const auto corners = [&](std::int32_t face) { return face < 0 ? 0 : mesh.faces[face].size(); };
+  const auto depth = [&](std::int32_t face) {
+    return audited.face_depth.empty() ? 0 : audited.face_depth[face];
+  };
+  for (const Lattice::Edge& e : lattice.edges()) {
+    const auto [low, high] = std::minmax({end(e.a), end(e.b)});
+    const auto [few, many] = std::minmax({corners(e.face[0]), corners(e.face[1])});
     std::uint64_t kind = low << 8 | high;
     kind = kind << 8 | std::min<std::size_t>(few, 15) << 4 | std::min<std::size_t>(many, 15);
-    kind = kind << 4 | static_cast<std::uint64_t>(e.faces < 2 ? 0 : std::abs(e.depth[0] - e.depth[1]));
-    kinds.insert(kind << 1 | (sharp.contains(ends) ? 1U : 0U));
+    kind = kind << 4 |
+           static_cast<std::uint64_t>(e.on_boundary() ? 0 : std::abs(depth(e.face[0]) - depth(e.face[1])));
+    kinds.insert(kind << 1 | (sharp.contains({e.a, e.b}) ? 1U : 0U));
   }
   return kinds;
 }
@@ -329,11 +319,7 @@ std::vector<Way> ways_of(const AuditSubject& subject, const std::vector<data::Sc
   const auto attempt = [&](const std::string& more) {
     AuditSubject with = subject;
     with.options += (with.options.empty() ? "" : ",") + more;
-    Way way{with.options, {}};
-    for (const data::Scheme scheme : schemes) try {
-        for (const Does& d : does_of(with, scheme)) way.does.push_back(d);
-      } catch (const std::exception&) {  // not together, or not for this scheme
-      }
+    Way way{with.options, does_of(with, schemes, Broken::kDoesNot)};
     if (!way.does.empty()) ways.push_back(std::move(way));
   };
   std::vector<std::string> pairs;

@@ -2,7 +2,6 @@
 #include "verify/mesh_output/mesh_output.h"
 
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +10,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"
@@ -22,6 +22,7 @@ namespace {
 using Path = std::filesystem::path;
 using Mesh = fast::IndexedMesh<float>;
 using Vertex = fast::SurfaceVertex<float>;
+using Json = nlohmann::json;
 
 static_assert(std::endian::native == std::endian::little, "records are written as they lie in memory");
 static_assert(sizeof(Vertex) == 24, "x y z nx ny nz, as the headers of the files say");
@@ -52,7 +53,7 @@ void write_ply(const Path& file, const Mesh& mesh, const Colouring& colouring) {
       mesh.vertices.size(), mesh.triangles.size(),
       coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "");
   out.write(reinterpret_cast<const char*>(mesh.vertices.data()),
-            static_cast<std::streamsize>(mesh.vertices.size() * sizeof(fast::SurfaceVertex<float>)));
+            static_cast<std::streamsize>(mesh.vertices.size() * sizeof(Vertex)));
 
   std::array<char, 16> record{};
   record[0] = 3;
@@ -107,109 +108,115 @@ void write_obj(const Path& file, const Mesh& mesh, const Colouring& colouring) {
   if (coloured) write_materials(materials, colouring);
 }
 
-int add_view(tinygltf::Model& model, std::size_t offset, std::size_t length, std::size_t stride, int target) {
-  tinygltf::BufferView view;
-  view.buffer = 0;
-  view.byteOffset = offset;
-  view.byteLength = length;
-  view.byteStride = stride;
-  view.target = target;
-  model.bufferViews.push_back(view);
-  return static_cast<int>(model.bufferViews.size()) - 1;
-}
-
-int add_accessor(tinygltf::Model& model, int view, std::size_t offset, int component, int type,
-                 std::size_t count) {
-  tinygltf::Accessor accessor;
-  accessor.bufferView = view;
-  accessor.byteOffset = offset;
-  accessor.componentType = component;
-  accessor.type = type;
-  accessor.count = count;
-  model.accessors.push_back(accessor);
-  return static_cast<int>(model.accessors.size()) - 1;
-}
-
 // glTF colours are linear, the palette is sRGB.
 double linear(std::uint8_t value) {
   const double c = value / 255.;
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-int add_material(tinygltf::Model& model, const ColourClass& c) {
-  tinygltf::Material material;
-  material.name = c.name;
-  material.pbrMetallicRoughness.baseColorFactor = {linear(c.rgb[0]), linear(c.rgb[1]), linear(c.rgb[2]), 1};
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.pbrMetallicRoughness.roughnessFactor = 0.8;
-  material.doubleSided = true;  // surfaces with boundary are seen from both sides
-  model.materials.push_back(material);
-  return static_cast<int>(model.materials.size()) - 1;
+Json material(const ColourClass& c) {
+  return {{"name", c.name},
+          {"doubleSided", true},  // surfaces with boundary are seen from both sides
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", {linear(c.rgb[0]), linear(c.rgb[1]), linear(c.rgb[2]), 1.}},
+            {"metallicFactor", 0.},
+            {"roughnessFactor", .8}}}};
+}
+
+Json accessor(int view, std::size_t offset, int component, const char* type, std::size_t count) {
+  Json json{{"bufferView", view}, {"componentType", component}, {"type", type}, {"count", count}};
+  if (offset > 0) json["byteOffset"] = offset;
+  return json;
+}
+
+// What a GLB says of its binary chunk, in which the vertices lie, and behind them the triangles class by class.
+void describe(const Mesh& mesh, const std::vector<std::vector<std::uint32_t>>& lists,
+              const Colouring& colouring, Json& model) {
+  constexpr int kFloat = 5126, kUnsigned = 5125, kTriangles = 4, kVertexBuffer = 34962, kIndexBuffer = 34963;
+  const std::size_t vertices = mesh.vertices.size(), vertex_bytes = vertices * sizeof(Vertex),
+                    index_bytes = mesh.triangles.size() * 12;
+  Json& accessors = model["accessors"];
+  accessors = {accessor(0, 0, kFloat, "VEC3", vertices), accessor(0, 12, kFloat, "VEC3", vertices)};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto coordinate = [c](const Vertex& v) { return v.position[c]; };
+    accessors[0]["min"][c] = coordinate(*std::ranges::min_element(mesh.vertices, {}, coordinate));
+    accessors[0]["max"][c] = coordinate(*std::ranges::max_element(mesh.vertices, {}, coordinate));
+  }
+  Json primitives;
+  std::size_t offset = 0;
+  for (std::size_t c = 0; c < lists.size(); ++c) {
+    if (lists[c].empty()) continue;
+    const bool coloured = !colouring.classes.empty();
+    model["materials"].push_back(
+        material(coloured ? colouring.classes[c] : ColourClass{"surface", {176, 190, 197}}));
+    primitives.push_back({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}},
+                          {"indices", accessors.size()},
+                          {"material", primitives.size()},
+                          {"mode", kTriangles}});
+    accessors.push_back(accessor(1, offset, kUnsigned, "SCALAR", 3 * lists[c].size()));
+    offset += 12 * lists[c].size();
+  }
+  model["bufferViews"] = {
+      {{"buffer", 0},
+       {"byteLength", vertex_bytes},
+       {"byteStride", sizeof(Vertex)},
+       {"target", kVertexBuffer}},
+      {{"buffer", 0}, {"byteLength", index_bytes}, {"byteOffset", vertex_bytes}, {"target", kIndexBuffer}}};
+  model["buffers"][0]["byteLength"] = vertex_bytes + index_bytes;
+  model["meshes"][0]["primitives"] = std::move(primitives);
+  model["nodes"][0]["mesh"] = 0;
+  model["scenes"][0]["nodes"][0] = 0;
+  model["scene"] = 0;
 }
 
 void write_glb(const Path& file, const Mesh& mesh, const Colouring& colouring) {
-  const std::size_t vertex_bytes = mesh.vertices.size() * sizeof(Vertex),
-                    index_bytes = mesh.triangles.size() * 12;
+  const std::size_t bytes = mesh.vertices.size() * sizeof(Vertex) + mesh.triangles.size() * 12;
   constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - (std::size_t{1} << 20);
-  if (vertex_bytes + index_bytes > kMost) {
+  if (bytes > kMost) {
     throw data::InputError("FILE_UNSUPPORTED", file.string(), 0,
                            "a GLB holds at most 4 GiB; write a PLY instead");
   }
-
-  tinygltf::Model model;
-  model.asset.version = "2.0";
-  model.asset.generator = "limitcheck";
-  if (!mesh.triangles.empty()) {
-    tinygltf::Buffer buffer;
-    buffer.data.resize(vertex_bytes + index_bytes);
-    std::memcpy(buffer.data.data(), mesh.vertices.data(), vertex_bytes);
-    const int vertices = add_view(model, 0, vertex_bytes, sizeof(Vertex), TINYGLTF_TARGET_ARRAY_BUFFER);
-    const int indices = add_view(model, vertex_bytes, index_bytes, 0, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-    const int positions = add_accessor(model, vertices, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                       mesh.vertices.size());
-    const int normals = add_accessor(model, vertices, 12, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                     mesh.vertices.size());
-    fast::Vec3<float> low = mesh.vertices[0].position, high = low;
-    for (const Vertex& v : mesh.vertices) {
-      low = {std::min(low.x, v.position.x), std::min(low.y, v.position.y), std::min(low.z, v.position.z)};
-      high = {std::max(high.x, v.position.x), std::max(high.y, v.position.y), std::max(high.z, v.position.z)};
-    }
-    model.accessors[positions].minValues = {low.x, low.y, low.z};
-    model.accessors[positions].maxValues = {high.x, high.y, high.z};
-
-    tinygltf::Mesh glmesh;
-    std::size_t offset = 0;
-    const auto lists = triangles_by_class(mesh, colouring);
-    for (std::size_t c = 0; c < lists.size(); ++c) {
-      if (lists[c].empty()) continue;
-      tinygltf::Primitive primitive;
-      primitive.mode = TINYGLTF_MODE_TRIANGLES;
-      primitive.attributes = {{"POSITION", positions}, {"NORMAL", normals}};
-      primitive.indices = add_accessor(model, indices, offset, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                       TINYGLTF_TYPE_SCALAR, 3 * lists[c].size());
-      primitive.material = add_material(
-          model, colouring.classes.empty() ? ColourClass{"surface", {176, 190, 197}} : colouring.classes[c]);
-      for (const std::uint32_t t : lists[c]) {
-        std::memcpy(buffer.data.data() + vertex_bytes + offset, mesh.triangles[t].data(), 12);
-        offset += 12;
-      }
-      glmesh.primitives.push_back(primitive);
-    }
-    model.buffers.push_back(std::move(buffer));
-    model.meshes.push_back(glmesh);
-    tinygltf::Node node;
-    node.mesh = 0;
-    model.nodes.push_back(node);
-    tinygltf::Scene scene;
-    scene.nodes = {0};
-    model.scenes = {scene};
-    model.defaultScene = 0;
-  }
+  const auto lists = triangles_by_class(mesh, colouring);
+  const bool empty = mesh.triangles.empty();
+  Json model{{"asset", {{"version", "2.0"}, {"generator", "limitcheck"}}}};
+  if (!empty) describe(mesh, lists, colouring, model);
+  std::string text = model.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
 
   data::AtomicFile output(file);
-  tinygltf::TinyGLTF writer;
-  writer.WriteGltfSceneToStream(&model, output.stream(), false, true);
+  const auto put = [&](const void* from, std::size_t size) {
+    output.stream().write(static_cast<const char*>(from), static_cast<std::streamsize>(size));
+  };
+  const auto put_words = [&](auto... words) {
+    for (const std::uint32_t word : {static_cast<std::uint32_t>(words)...}) put(&word, 4);
+  };
+  constexpr std::uint32_t kGlb = 0x46546C67, kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+  put_words(kGlb, kVersion, 12 + 8 + text.size() + (empty ? 0 : 8 + bytes), text.size(), kJson);
+  put(text.data(), text.size());
+  if (!empty) {
+    put_words(bytes, kBinary);
+    put(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vertex));
+    for (const auto& list : lists)
+      for (const std::uint32_t t : list) put(mesh.triangles[t].data(), 12);
+  }
   output.commit();
+}
+
+// The formats, by extension.
+struct Format {
+  const char* extension;
+  void (*write)(const Path& file, const Mesh& mesh, const Colouring& colouring);
+};
+constexpr Format kFormats[]{{".ply", write_ply}, {".obj", write_obj}, {".glb", write_glb}};
+
+const Format& format_of(const Path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Format& format : kFormats)
+    if (extension == format.extension) return format;
+  throw data::InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,
+                         "a tessellation is written as .ply, .obj or .glb");
 }
 
 }  // namespace
@@ -240,27 +247,13 @@ Colouring colour_by_kind(const fast::IndexedMesh<float>& mesh) {
   return colouring;
 }
 
-OutputFormat output_format(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".ply") return OutputFormat::kPly;
-  if (extension == ".obj") return OutputFormat::kObj;
-  if (extension == ".glb") return OutputFormat::kGlb;
-  throw data::InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,
-                         "a tessellation is written as .ply, .obj or .glb");
+void check_extension(const std::filesystem::path& file) {
+  (void)format_of(file);
 }
 
 void write_tessellation(const std::filesystem::path& file, const fast::IndexedMesh<float>& mesh,
                         const Colouring& colouring) {
-  switch (output_format(file)) {
-    case OutputFormat::kPly:
-      return write_ply(file, mesh, colouring);
-    case OutputFormat::kObj:
-      return write_obj(file, mesh, colouring);
-    case OutputFormat::kGlb:
-      return write_glb(file, mesh, colouring);
-  }
+  format_of(file).write(file, mesh, colouring);
 }
 
 }  // namespace limitcheck::verify

@@ -29,10 +29,8 @@ Colouring colour_by_depth(const fast::IndexedMesh<float>& mesh, std::span<const 
 /// Strip of a pair, strip of a singleton, fan, stitched ring.
 Colouring colour_by_kind(const fast::IndexedMesh<float>& mesh);
 
-enum class OutputFormat { kPly, kObj, kGlb };
-
-/// By extension; throws data::InputError FILE_UNKNOWN_FORMAT and names the three.
-OutputFormat output_format(const std::filesystem::path& file);
+/// Throws data::InputError FILE_UNKNOWN_FORMAT, which names the three extensions.
+void check_extension(const std::filesystem::path& file);
 
 /// Writes positions, unit normals and triangles; shared vertices stay shared, so that the file is as
 /// watertight as the mesh.

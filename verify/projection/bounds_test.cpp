@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bounds of pieces against the surface itself, densely sampled.
-// Evaluation near vertices of very many faces against Stam's method.
+// Evaluation on the domain, near vertices of very many faces too, against that on the control mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -117,9 +117,7 @@ data::ControlMesh lattice_of(int n, bool quads, Place place) {
 
 std::optional<double> bound_of_quad(const data::ControlMesh& mesh, std::size_t face, int turn) {
   const reference::Topology topology(mesh.positions.size(), mesh.faces);
-  Quad quad{};
-  for (int k = 0; k < 4; ++k) quad[k] = mesh.faces[face][(k + turn) % 4];
-  return regular_bound(topology, reference::positions_of<double>(mesh), quad);
+  return regular_bound(topology, reference::positions_of<double>(mesh), face, static_cast<std::size_t>(turn));
 }
 
 // A quadratic surface is where the bounds for regular pieces are sharp. z = (x^2 + x y + y^2) / 16 on the lattice e1
@@ -132,8 +130,7 @@ TEST(Bounds, AreSharpForAQuadratic) {
   };
   const data::ControlMesh triangles = lattice_of(8, false, place), quads = lattice_of(6, true, place);
   const reference::RefinedMesh<double> refined(triangles);
-  const auto bound =
-      regular_bound(refined.topology(), refined.positions(), triangles_of(triangles)[2 * (3 * 8 + 3)]);
+  const auto bound = regular_bound(refined.topology(), refined.positions(), 2 * (3 * 8 + 3));
   ASSERT_TRUE(bound.has_value());
   EXPECT_NEAR(*bound, 2. / 16 / 6, 1e-15);
   EXPECT_NEAR(*bound, .5 * 3 / 9 * 2 / 16, 1e-15);
@@ -250,7 +247,7 @@ TEST(Domain, APointOfACommonSideOrCornerHasANameInBothFaces) {
   });
 }
 
-TEST(HighValenceVertex, GivesThePointsAndDerivativesOfStamsMethod) {
+TEST(LimitSurface, HasThePointsAndDerivativesOfTheControlMesh) {
   double worst = 0, worst_first = 0, worst_second = 0;
   int near = 0;
   for (const char* name :

@@ -48,51 +48,37 @@ int Domain::side_across(std::int32_t face, int k) const {
 
 bool Domain::express(const FacePoint& point, std::int32_t face, FacePoint& result) const {
   result = {face, {0, 0, 0}};
-  if (chart().is_square()) {
-    if (point.face == face) {
-      result = point;
-      return true;
-    }
-    if (const int k = chart().corner_at(point.l); k >= 0) {
-      const auto corner = lattice_.corner_of(face, vertex(point.face, k));
-      if (corner) result.l = chart().corner(*corner);
-      return corner.has_value();
-    }
-    for (int k = 0; k < 4; ++k) {
-      if (chart().height(k, point.l) != 0 || across(point.face, k) != face) continue;
-      result.l = chart().put_on(side_across(point.face, k), unfolded(point.face, k, point.l));
-      return true;
-    }
-    return false;
+  if (point.face == face) {
+    result = point;
+    return true;
   }
-  for (int k = 0; k < 3; ++k) {
-    if (point.l[k] == 0) continue;
+  if (const int k = chart().corner_at(point.l); k >= 0) {
     const auto corner = lattice_.corner_of(face, vertex(point.face, k));
-    if (!corner) return false;
-    result.l[*corner] = point.l[k];
+    if (corner) result.l = chart().corner(*corner);
+    return corner.has_value();
   }
-  return true;
+  for (int k = 0; k < chart().corners(); ++k) {
+    if (chart().height(k, point.l) != 0 || across(point.face, k) != face) continue;
+    result.l = chart().put_on(side_across(point.face, k), unfolded(point.face, k, point.l));
+    return true;
+  }
+  return false;
 }
 
 // `whole`: the sum of the coordinates, 1 of a point and 0 of a step.
 Chart::Affine Domain::turned(std::int32_t face, int k, const Chart::Affine& l, double whole) const {
-  const std::int32_t next = across(face, k);
-  if (!chart().is_square()) {  // (a, b, c) with c left behind becomes (b, a, d), d = a + b - c
-    const int a = (k + 1) % 3, b = (k + 2) % 3;
+  const Chart shape = chart();
+  const int side = side_across(face, k);
+  if (!shape.is_square()) {  // (a, b, c) with c left behind becomes (b, a, d), d = a + b - c
     Chart::Affine there{};
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t v = vertex(next, i);
-      there[i] = v == vertex(face, a) ? l[a] + l[k] : v == vertex(face, b) ? l[b] + l[k] : -l[k];
-    }
+    there[shape.last(side)] = l[shape.first(k)] + l[k];
+    there[shape.first(side)] = l[shape.last(k)] + l[k];
+    there[side] = -l[k];
     return there;
   }
-  // Along the side and away from it, counted from where it begins; then from the other face.
-  const auto rest = [&](double x) { return whole - x; };
-  const double along = rest(k == 0 ? l[1] : k == 1 ? l[2] : k == 2 ? rest(l[1]) : rest(l[2]));
-  const double away = -(k == 0 ? l[2] : k == 1 ? rest(l[1]) : k == 2 ? rest(l[2]) : l[1]);
-  const int side = side_across(face, k);
-  const double u = side == 0 ? along : side == 1 ? rest(away) : side == 2 ? rest(along) : away;
-  const double v = side == 0 ? away : side == 1 ? along : side == 2 ? rest(away) : rest(along);
+  // Along the side and away from it, counted from where it begins; then from the other face, and turned back.
+  const auto [along, away] = shape.from_corner(k, l, whole);
+  const auto [u, v] = shape.from_corner((4 - side) % 4, {whole, whole - along, -away}, whole);
   return {whole - u - v, u, v};
 }
 

@@ -63,20 +63,27 @@ class Chart {
   /// half of which is the unit; so much has the whole.
   constexpr double area() const { return square_ ? 2 : 1; }
 
+  /// A point seen from a corner: its coordinates towards the next corner and towards the one before.
+  ///   whole   1 of a point, 0 of a step
+  constexpr std::array<double, 2> from_corner(int k, const Affine& l, double whole) const {
+    if (!square_) return {l[(k + 1) % 3], l[(k + 2) % 3]};
+    if (k == 0) return {l[1], l[2]};
+    if (k == 1) return {l[2], whole - l[1]};
+    if (k == 2) return {whole - l[1], whole - l[2]};
+    return {whole - l[2], l[1]};
+  }
   /// How far a point lies from a side, the far corner or side being at 1; 0 exactly means on it.
   constexpr double height(int side, const Affine& l) const {
-    if (!square_) return l[side];
-    return side == 0 ? l[2] : side == 1 ? 1 - l[1] : side == 2 ? 1 - l[2] : l[1];
+    return square_ ? from_corner(side, l, 1)[1] : l[side];
   }
   /// The height gained by a step.
   constexpr double slope(int side, const Affine& step) const {
-    if (!square_) return step[side];
-    return side == 0 ? step[2] : side == 1 ? -step[1] : side == 2 ? -step[2] : step[1];
+    return square_ ? from_corner(side, step, 0)[1] : step[side];
   }
   /// The corner in which a point lies exactly, or -1.
   constexpr int corner_at(const Affine& l) const {
     for (int k = 0; k < corners(); ++k)
-      if (square_ ? height(k, l) == 0 && height((k + 3) % 4, l) == 0 : l[k] == 1) return k;
+      if (from_corner(k, l, 1) == std::array{0., 0.}) return k;
     return -1;
   }
   /// Within a tenth of a corner.

@@ -17,8 +17,6 @@
 
 namespace limitcheck::verify {
 
-class HighValenceVertex;
-
 /// The faces of the domain are
 ///   of Loop's scheme         the control mesh's triangles
 ///   of Catmull-Clark's       its quads; or, if it has other faces, the quads of the mesh after one step: one
@@ -78,9 +76,6 @@ class LimitSurface {
     data::ControlMesh mesh;
     reference::SharpTags tags;
   };
-  void look_for_high_valences();
-  std::optional<reference::SurfacePoint<double>> near_high_valence(const FacePoint& at,
-                                                                   reference::Order order) const;
   static std::unique_ptr<const Refined> refined_once(const data::ControlMesh& mesh, data::Scheme scheme);
 
   const data::ControlMesh& control_;
@@ -91,8 +86,6 @@ class LimitSurface {
   std::vector<bool> hole_;                  // of each control face; empty if there is none
   Domain domain_;
   reference::Surface surface_;
-  std::vector<std::shared_ptr<const HighValenceVertex>>
-      high_valence_;  // of each vertex of mesh(), if it is one; empty if none is
 };
 
 }  // namespace limitcheck::verify

@@ -3,16 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/ringed_quad.h"
+#include "reference/loop/ringed_face.h"
+#include "reference/mesh/cut_mesh.h"
 #include "reference/mesh/topology.h"
-#include "verify/projection/cut_mesh.h"
+#include "verify/projection/refine_tagged.h"
 
 namespace limitcheck::verify {
 namespace {
 
-using reference::Sector, reference::Topology, reference::Triangle, reference::VertexState;
+using reference::Topology, reference::VertexState;
 using Point = reference::Vec3<double>;
 using Points = std::span<const Point>;
 
@@ -23,81 +28,66 @@ double length(const Point& a) {
   return std::sqrt(dot(a, a));
 }
 
-// The six neighbours of a regular vertex, linear ghosts [D10] completing those of a boundary vertex.
-struct Ring {
-  std::array<Point, 6> point;
-  std::array<std::int32_t, 6> id;  // -1: ghost
-
-  int find(std::int32_t v) const { return static_cast<int>(std::find(id.begin(), id.end(), v) - id.begin()); }
-  const Point& operator[](int k) const { return point[(k + 12) % 6]; }
-};
-
-bool ring_of(const Topology& topology, std::span<const Point> positions, std::int32_t v,
-             std::span<const VertexState> states, Ring& ring) {
-  if (reference::state_of(states, v) != VertexState::kOrdinary) return false;
-  const auto neighbours = topology.ring(v);
-  const bool boundary = topology.on_boundary(v);
-  if (neighbours.size() != (boundary ? 4U : 6U)) return false;
-  for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    ring.id[k] = neighbours[k];
-    ring.point[k] = positions[neighbours[k]];
-  }
-  if (boundary) {
-    ring.id[4] = ring.id[5] = -1;
-    ring.point[4] = positions[v] + ring.point[3] - ring.point[2];
-    ring.point[5] = positions[v] + ring.point[0] - ring.point[1];
-  }
-  return true;
+// Of a face whose corners have all of their rings.
+bool has_polynomial(const auto& ringed) {
+  return ringed.is_regular() && std::ranges::none_of(ringed.corner, [](const auto& corner) {
+           return corner.state == VertexState::kHeld;
+         });
 }
 
-// The corner of a quad at a vertex of it.
-int corner_of(std::span<const std::int32_t> quad, std::int32_t vertex) {
-  return static_cast<int>(std::find(quad.begin(), quad.end(), vertex) - quad.begin());
+std::optional<double> bound_of_triangle(const Topology& topology, Points positions, std::size_t face,
+                                        std::span<const VertexState> states) {
+  const auto point = [&](std::int32_t v) { return positions[v]; };
+  const auto ringed = reference::gather_triangle<Point>(topology, face, point, states);
+  if (!has_polynomial(ringed)) return std::nullopt;
+  const auto p = ringed.patch([](const Point& v, const Point& a, const Point& b) { return v + a - b; });
+  // Three points of the patch in a row: four times along each of the edges.
+  constexpr std::array<std::array<int, 3>, 12> kRows{{{0, 2, 5},
+                                                      {1, 3, 6},
+                                                      {3, 6, 9},
+                                                      {4, 7, 10},
+                                                      {0, 3, 7},
+                                                      {2, 6, 10},
+                                                      {3, 7, 11},
+                                                      {1, 4, 8},
+                                                      {2, 3, 4},
+                                                      {5, 6, 7},
+                                                      {6, 7, 8},
+                                                      {9, 10, 11}}};
+  double largest = 0;
+  for (const auto& [before, centre, after] : kRows)
+    largest = std::max(largest, length((p[before] - p[centre]) + (p[after] - p[centre])));
+  return largest / 6;
 }
 
-// The nine points around and at a corner of a quad: [x][y], the corner at [1][1], the quad's next corner at
-// [2][1] and the one before at [1][2]. Linear ghosts complete those of a boundary vertex.
-using Nine = std::array<std::array<Point, 3>, 3>;
-
-bool gather(const Topology& topology, std::span<const Point> positions, const Quad& quad, int corner,
-            std::span<const VertexState> states, Nine& nine) {
-  const std::int32_t v = quad[static_cast<std::size_t>(corner)];
-  if (reference::state_of(states, v) != VertexState::kOrdinary) return false;
-  const Sector sector = topology.sector(v);
-  if (sector.faces.size() != (sector.closed ? 4U : 2U)) return false;
-  const std::int32_t next = quad[static_cast<std::size_t>(corner + 1) % 4];
-  const auto neighbour = [&](std::size_t i) { return positions[sector.neighbours[i]]; };
-  const auto opposite = [&](std::size_t i) {
-    const auto face = topology.faces()[sector.faces[i]];
-    return positions[face[static_cast<std::size_t>(corner_of(face, v) + 2) % 4]];
-  };
-  const Point& centre = positions[v];
-  nine[1][1] = centre;
-  if (sector.closed) {
-    const auto at = static_cast<std::size_t>(
-        std::find(sector.neighbours.begin(), sector.neighbours.end(), next) - sector.neighbours.begin());
-    nine[2][1] = neighbour(at), nine[1][2] = neighbour((at + 1) % 4);
-    nine[0][1] = neighbour((at + 2) % 4), nine[1][0] = neighbour((at + 3) % 4);
-    nine[2][2] = opposite(at), nine[0][2] = opposite((at + 1) % 4);
-    nine[0][0] = opposite((at + 2) % 4), nine[2][0] = opposite((at + 3) % 4);
-    return true;
-  }
-  const auto ghost = [](const Point& edge, const Point& inside) { return edge * 2.0 - inside; };
-  if (sector.neighbours[0] == next) {  // the boundary runs along x
-    for (const int x : {0, 1, 2}) nine[x][1] = x == 1 ? centre : neighbour(x == 2 ? 0 : 2);
-    for (const int x : {0, 1, 2}) nine[x][2] = x == 1 ? neighbour(1) : opposite(x == 2 ? 0 : 1);
-    for (const int x : {0, 1, 2}) nine[x][0] = ghost(nine[x][1], nine[x][2]);
-  } else {  // along y
-    for (const int y : {0, 1, 2}) nine[1][y] = y == 1 ? centre : neighbour(y == 0 ? 0 : 2);
-    for (const int y : {0, 1, 2}) nine[2][y] = y == 1 ? neighbour(1) : opposite(y == 0 ? 0 : 1);
-    for (const int y : {0, 1, 2}) nine[0][y] = ghost(nine[1][y], nine[2][y]);
-  }
-  return true;
+std::optional<double> bound_of_quad(const Topology& topology, Points positions, std::size_t face,
+                                    std::size_t first, std::span<const VertexState> states) {
+  const auto point = [&](std::int32_t v) { return positions[v]; };
+  reference::catmull_clark::RingedQuad<Point> ringed;
+  for (std::size_t k = 0; k < 4; ++k)
+    ringed.corner[k] =
+        reference::catmull_clark::gather_corner<Point>(topology, face, (first + k) % 4, point, states);
+  if (!has_polynomial(ringed)) return std::nullopt;
+  const auto patch = ringed.patch([](const Point& edge, const Point& inside) { return edge * 2.0 - inside; });
+  const auto p = [&](int i, int j) { return patch[4 * j + i]; };  // i along u, the quad's corners at 1 and 2
+  double along_u = 0, along_v = 0, mixed = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      if (i == 1 || i == 2)
+        along_u = std::max(along_u, length((p(i - 1, j) - p(i, j)) + (p(i + 1, j) - p(i, j))));
+      if (j == 1 || j == 2)
+        along_v = std::max(along_v, length((p(i, j - 1) - p(i, j)) + (p(i, j + 1) - p(i, j))));
+      if (i < 3 && j < 3)
+        mixed = std::max(mixed, length((p(i + 1, j + 1) - p(i + 1, j)) - (p(i, j + 1) - p(i, j))));
+    }
+  return (along_u + 2 * mixed + along_v) / 8;
 }
 
 // A vertex (number 0) with the faces around it and around all vertices of these, refined again and
-// again on the spot.
-struct Surroundings : Part {
+// again on the spot; the others are numbered as they appear.
+struct Surroundings {
+  std::vector<Point> positions;
+  data::Faces faces;
   reference::SharpTags tags;
 };
 
@@ -116,31 +106,36 @@ void add_lasting_edges(reference::SharpTags& tags, const reference::Topology& to
 
 Surroundings surroundings(const Topology& topology, Points positions, std::int32_t vertex,
                           const SharpVertexOf& sharp = {}) {
-  std::vector<std::int32_t> faces;
+  std::set<std::int32_t> faces;
   for (const std::int32_t near : topology.sector(vertex).faces)
     for (const std::int32_t v : topology.faces()[near])
       if (v != vertex)
-        for (const std::int32_t f : topology.sector(v).faces) faces.push_back(f);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        for (const std::int32_t f : topology.sector(v).faces) faces.insert(f);
 
-  Surroundings s{{topology, positions, vertex, faces}, {}};
-  for (std::size_t k = 0; k < faces.size() && sharp.sharpness != nullptr; ++k)
-    add_lasting_edges(s.tags, topology, *sharp.sharpness, faces[k], s.faces[k]);
+  Surroundings s{{positions[vertex]}, {}, {}};
+  std::unordered_map<std::int32_t, std::int32_t> number{{vertex, 0}};
+  std::vector<std::int32_t> corners;
+  for (const std::int32_t f : faces) {
+    const auto face = topology.faces()[f];
+    corners.assign(face.begin(), face.end());
+    for (std::int32_t& v : corners) {
+      const auto [at, is_new] = number.try_emplace(v, static_cast<std::int32_t>(s.positions.size()));
+      if (is_new) s.positions.push_back(positions[v]);
+      v = at->second;
+    }
+    s.faces.push_back(corners);
+    if (sharp.sharpness != nullptr) add_lasting_edges(s.tags, topology, *sharp.sharpness, f, corners);
+  }
   if (sharp.held) s.tags.vertices.push_back({0, 10.0});
   return s;
 }
 
-// What the steps around a vertex need to know of a scheme: the mesh, the bound of a face of it, and the middles of
-// the sides of the flat triangles that a face at the vertex is cut into, with the ends of these sides.
+// What the steps around a vertex need to know of a scheme: the mesh, and the middles of the sides of the flat triangles
+// that a face at the vertex is cut into, with the ends of these sides.
 struct LoopPieces {
   using Mesh = reference::RefinedMesh<double>;
   static Mesh mesh_of(const Surroundings& s) {
     return {s.positions, data::Triangles(s.faces).to_vector(), reference::Weights::kLoop, s.tags};
-  }
-  static std::optional<double> bound(const Topology& topology, Points positions, std::size_t face,
-                                     std::span<const VertexState> states) {
-    return regular_bound(topology, positions, reference::triangle_of(topology, face), states);
   }
   template <class What>
   static void for_each_middle(const Mesh& fine, std::size_t f, std::span<const std::int32_t> t, What&& what) {
@@ -153,11 +148,6 @@ struct LoopPieces {
 struct QuadPieces {
   using Mesh = reference::catmull_clark::RefinedMesh<double>;
   static Mesh mesh_of(const Surroundings& s) { return {s.faces, s.positions, s.tags}; }
-  static std::optional<double> bound(const Topology& topology, Points positions, std::size_t face,
-                                     std::span<const VertexState> states) {
-    const auto corners = topology.faces()[face];
-    return regular_bound(topology, positions, Quad{corners[0], corners[1], corners[2], corners[3]}, states);
-  }
   template <class What>
   static void for_each_middle(const Mesh& fine, std::size_t f, std::span<const std::int32_t> quad,
                               What&& what) {
@@ -165,7 +155,8 @@ struct QuadPieces {
     what(fine.vertex(f, 0, 2, 1), quad[1], quad[2]);
     what(fine.vertex(f, 0, 1, 2), quad[2], quad[3]);
     what(fine.vertex(f, 0, 0, 1), quad[3], quad[0]);
-    what(fine.vertex(f, 0, 1, 1), 0, quad[static_cast<std::size_t>(corner_of(quad, 0) + 2) % 4]);
+    what(fine.vertex(f, 0, 1, 1), 0,
+         quad[static_cast<std::size_t>(std::ranges::find(quad, 0) - quad.begin() + 2) % 4]);
   }
 };
 
@@ -184,8 +175,8 @@ CornerBounds bounds_around(const Topology& topology, Points positions, std::int3
   for (int step = 1; step <= kSteps; ++step) {
     auto fine = Pieces::mesh_of(now);
     const auto sharpness = refine_tagged(fine, now.tags, 1);
-    std::optional<CutMesh> cut;
-    if (sharpness) cut.emplace(fine.topology(), fine.positions(), *sharpness);
+    std::optional<reference::CutMesh<double>> cut;
+    if (sharpness) cut.emplace(reference::TaggedMesh<double>{fine.topology(), fine.positions(), *sharpness});
     const std::vector<Point> fine_limits = fine.limits().positions;
     for (std::size_t f = 0; f < now.faces.size(); ++f) {
       const auto face = std::as_const(now.faces)[f];
@@ -197,8 +188,8 @@ CornerBounds bounds_around(const Topology& topology, Points positions, std::int3
       });
       for (std::size_t child = 4 * f; child < 4 * f + 4; ++child) {
         if (has_vertex(fine.topology().faces()[child])) continue;
-        const auto bound = cut ? Pieces::bound(cut->topology, cut->positions, child, cut->states)
-                               : Pieces::bound(fine.topology(), fine.positions(), child, {});
+        const auto bound = cut ? regular_bound(cut->topology, cut->positions, child, 0, cut->states)
+                               : regular_bound(fine.topology(), fine.positions(), child);
         bounds.outer[step] = std::max(bounds.outer[step], bound.value_or(1e300));
       }
     }
@@ -221,55 +212,10 @@ CornerBounds bounds_around(const Topology& topology, Points positions, std::int3
 
 }  // namespace
 
-std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
-                                    const Triangle& triangle, std::span<const VertexState> states) {
-  std::array<Ring, 3> rings;
-  for (int k = 0; k < 3; ++k)
-    if (!ring_of(topology, positions, triangle[k], states, rings[k])) return std::nullopt;
-  double largest = 0;
-  const auto look = [&](const Point& before, const Point& centre, const Point& after) {
-    largest = std::max(largest, length((before - centre) + (after - centre)));
-  };
-  for (int k = 0; k < 3;
-       ++k) {  // along the edge a - b: the rows through a and b, through c, and beyond the edge
-    const std::int32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3];
-    const Ring &ra = rings[k], &rb = rings[(k + 1) % 3], &rc = rings[(k + 2) % 3];
-    const int ab = ra.find(b), ba = rb.find(a), ca = rc.find(a);
-    look(ra[ab], positions[a], ra[ab + 3]);
-    look(rb[ba], positions[b], rb[ba + 3]);
-    look(rc[ca + 2], positions[c], rc[ca + 5]);
-    look(ra[ab - 2], ra[ab - 1], rb[ba + 2]);
-  }
-  return largest / 6;
-}
-
-std::optional<double> regular_bound(const Topology& topology, std::span<const Point> positions,
-                                    const Quad& quad, std::span<const VertexState> states) {
-  std::array<std::array<Point, 4>, 4> p;  // [i][j], i along u, the quad's corners at 1 and 2
-  constexpr std::array<std::array<int, 2>, 4> kCorner{{{1, 1}, {2, 1}, {2, 2}, {1, 2}}};
-  for (int k = 0; k < 4; ++k) {
-    Nine nine;
-    if (!gather(topology, positions, quad, k, states, nine)) return std::nullopt;
-    const auto [i, j] = kCorner[k];
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y) {
-        // The axes of corner k are those of the quad turned by k quarter turns.
-        const int du = k == 0 ? x : k == 1 ? -y : k == 2 ? -x : y;
-        const int dv = k == 0 ? y : k == 1 ? x : k == 2 ? -y : -x;
-        p[i + du][j + dv] = nine[x + 1][y + 1];
-      }
-  }
-  double along_u = 0, along_v = 0, mixed = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      if (i == 1 || i == 2)
-        along_u = std::max(along_u, length((p[i - 1][j] - p[i][j]) + (p[i + 1][j] - p[i][j])));
-      if (j == 1 || j == 2)
-        along_v = std::max(along_v, length((p[i][j - 1] - p[i][j]) + (p[i][j + 1] - p[i][j])));
-      if (i < 3 && j < 3)
-        mixed = std::max(mixed, length((p[i + 1][j + 1] - p[i + 1][j]) - (p[i][j + 1] - p[i][j])));
-    }
-  return (along_u + 2 * mixed + along_v) / 8;
+std::optional<double> regular_bound(const Topology& topology, Points positions, std::size_t face,
+                                    std::size_t first, std::span<const VertexState> states) {
+  return topology.faces()[face].size() == 3 ? bound_of_triangle(topology, positions, face, states)
+                                            : bound_of_quad(topology, positions, face, first, states);
 }
 
 CornerBounds corner_bounds(data::Scheme scheme, const Topology& topology, Points positions,

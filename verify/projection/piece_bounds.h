@@ -33,7 +33,7 @@
 // corner lies in the convex hull of its control points, which shrinks like 0.6546^steps at worst.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -54,22 +54,13 @@ struct SharpVertexOf {
   bool held = false;                                // the vertex stays where it is
 };
 
-/// The bound for one triangle of a refined mesh, or nothing if a corner is not regular (interior: valence 6,
-/// boundary: 3 faces).
+/// The bound for one face of a refined mesh: a triangle, or the two triangles of a quad. Nothing if a corner is not
+/// regular (interior: valence 6 or 4; boundary: 3 faces or 2).
+///   first    the corner at which u and v of a quad begin
 ///   states   of the vertices of a mesh that is cut along its sharp edges: held ones and darts are not regular
 std::optional<double> regular_bound(const reference::Topology& topology,
-                                    std::span<const reference::Vec3<double>> positions,
-                                    const reference::Triangle& triangle,
-                                    std::span<const reference::VertexState> states = {});
-
-/// Vertex indices, counter-clockwise.
-using Quad = std::array<std::int32_t, 4>;
-
-/// The bound for the two triangles of one quad of a refined mesh, or nothing if a corner is not regular
-/// (interior: valence 4, boundary: 2 faces).
-///   states   as for triangles
-std::optional<double> regular_bound(const reference::Topology& topology,
-                                    std::span<const reference::Vec3<double>> positions, const Quad& quad,
+                                    std::span<const reference::Vec3<double>> positions, std::size_t face,
+                                    std::size_t first = 0,
                                     std::span<const reference::VertexState> states = {});
 
 /// The pieces around one extraordinary vertex, the largest over its sectors. Level 0 is the lattice triangle

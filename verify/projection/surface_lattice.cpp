@@ -9,9 +9,10 @@
 
 #include "reference/catmull_clark/refined_mesh.h"
 #include "reference/loop/refine.h"
+#include "reference/mesh/cut_mesh.h"
 #include "reference/mesh/topology.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/projection/cut_mesh.h"
+#include "verify/projection/refine_tagged.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -26,15 +27,14 @@ struct SharpPieces {
   const reference::Topology& topology;
   const Points& positions;
   const reference::Sharpness& sharpness;
-  CutMesh cut;
-  std::vector<bool> rough;  // of each face
+  reference::CutMesh<double> cut;  // has the faces of the mesh, corner by corner
+  const std::vector<bool>& rough = cut.needs_a_step;
 
   SharpPieces(const reference::Topology& whole, const Points& points, const reference::Sharpness& sharp)
       : topology(whole),
         positions(points),
         sharpness(sharp),
-        cut(whole, points, sharp),
-        rough(sharp.needs_a_step(whole)) {}
+        cut(reference::TaggedMesh<double>{whole, points, sharp}) {}
 
   // Whether bounds are wanted for the vertex: in one of its sectors it is extraordinary, and no semi-sharp
   // tags are near.
@@ -48,10 +48,9 @@ struct SharpPieces {
             if (rough[other]) return false;
     if (cut.states[v] != reference::VertexState::kOrdinary) return true;
     return std::any_of(sector.begin(), sector.end(), [&](std::int32_t f) {
-      const auto corners = cut.topology.faces()[f];
-      const std::int32_t copy =
-          *std::find_if(corners.begin(), corners.end(), [&](std::int32_t c) { return cut.origin[c] == v; });
-      const reference::Sector its = cut.topology.sector(copy);
+      const auto corners = topology.faces()[f];
+      const auto at = static_cast<std::size_t>(std::ranges::find(corners, v) - corners.begin());
+      const reference::Sector its = cut.topology.sector(cut.topology.faces()[f][at]);
       return its.faces.size() != (its.closed ? inside : boundary);
     });
   }
@@ -64,10 +63,10 @@ struct SharpPieces {
     double size;
     bool rough;
   };
-  template <class Regular>
-  Bound bound(std::size_t face, Regular regular) const {
+  Bound bound(std::size_t face, std::size_t first) const {
     if (!rough[face])
-      if (const std::optional<double> size = regular(cut)) return {*size, false};
+      if (const auto size = regular_bound(cut.topology, cut.positions, face, first, cut.states))
+        return {*size, false};
     return {hull(static_cast<std::int32_t>(face)), true};
   }
   // The size of what the surface over a face depends on, a bound for all pieces of it.
@@ -83,6 +82,8 @@ struct SharpPieces {
     return 2 * radius;
   }
 };
+
+using Quad = std::array<std::int32_t, 4>;
 
 // A quad of a face's lattice, its corners from the one at which its diagonal begins: the one nearest to a corner of
 // the face.
@@ -101,24 +102,32 @@ QuadCell cell(int i, int j, int n) {
   return c;
 }
 
-// The corners of its two triangles.
+// A triangle of a face's lattice of n steps: first the upright ones, rows of equal j, then the others.
+std::array<std::array<int, 2>, 3> triangle(int number, int n) {
+  const int upright = n * (n + 1) / 2;
+  int i = number < upright ? number : number - upright, j = 0;
+  for (int row = number < upright ? n : n - 1; i >= row; --row, ++j) i -= row;
+  if (number < upright) return {{{i, j}, {i + 1, j}, {i, j + 1}}};
+  return {{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}};
+}
+
+// The corners of the two triangles of a quad.
 constexpr std::array<std::array<int, 3>, 2> kHalves{{{0, 1, 2}, {0, 2, 3}}};
 
-// The face of the cut mesh that is a given one of the mesh, and its corners. The third corner of a quad has few faces.
-std::pair<std::int32_t, Quad> cut_face(const SharpPieces& sharp, std::size_t, const Quad& quad) {
-  for (const std::int32_t f : sharp.topology.sector(quad[2]).faces) {
-    const auto whole = sharp.topology.faces()[f], cut = sharp.cut.topology.faces()[f];
-    const auto at = std::find(whole.begin(), whole.end(), quad[0]) - whole.begin();
-    if (at == 4 || whole[(at + 2) % 4] != quad[2]) continue;
-    Quad corners;
-    for (std::size_t k = 0; k < 4; ++k) corners[k] = cut[(static_cast<std::size_t>(at) + k) % 4];
-    return {f, corners};
+// The face of the refined mesh that is a given cell of the lattice, and the corner of it at which the cell begins. The
+// third corner of a quad has few faces.
+std::pair<std::size_t, std::size_t> face_of(const reference::Topology& topology, std::size_t,
+                                            const Quad& quad) {
+  for (const std::int32_t f : topology.sector(quad[2]).faces) {
+    const auto face = topology.faces()[f];
+    const auto at = static_cast<std::size_t>(std::ranges::find(face, quad[0]) - face.begin());
+    if (at < 4 && face[(at + 2) % 4] == quad[2]) return {f, at};
   }
   throw std::logic_error("a quad of the lattice is no face of the refined mesh");
 }
-std::pair<std::int32_t, reference::Triangle> cut_face(const SharpPieces& sharp, std::size_t face,
-                                                      const reference::Triangle&) {
-  return {static_cast<std::int32_t>(face), reference::triangle_of(sharp.cut.topology, face)};
+std::pair<std::size_t, std::size_t> face_of(const reference::Topology&, std::size_t cell,
+                                            const reference::Triangle&) {
+  return {cell, 0};
 }
 
 }  // namespace
@@ -200,13 +209,11 @@ void SurfaceLattice::subdivide(const data::ControlMesh& mesh, Refined& refined,
     SharpPieces::Bound bound{0, false};
     if (irregular >= 0) {
       bound.size = bounds_[irregular].corner[0];
-    } else if (!sharp) {
-      bound.size = regular_bound(topology, refined.positions(), corners).value();
     } else {
-      const auto cut = cut_face(*sharp, c, corners);
-      bound = sharp->bound(static_cast<std::size_t>(cut.first), [&](const CutMesh& whole) {
-        return regular_bound(whole.topology, whole.positions, cut.second, whole.states);
-      });
+      const auto [face, first] = face_of(topology, c, corners);
+      bound = sharp ? sharp->bound(face, first)
+                    : SharpPieces::Bound{regular_bound(topology, refined.positions(), face, first).value(),
+                                         false};
     }
     for (std::size_t half = 0; half < kEach; ++half) {
       const std::size_t t = kEach * c + half;
@@ -231,40 +238,25 @@ std::array<Vector, 3> SurfaceLattice::corners(std::size_t index) const {
 }
 
 Piece SurfaceLattice::piece(std::size_t index) const {
-  const auto n = std::int64_t{1} << depth_;
+  const int n = 1 << depth_;
   const double s = std::ldexp(1.0, -depth_);
+  const std::size_t cell_number = chart_.is_square() ? index / 2 : index;
+  const auto within_face = static_cast<int>(cell_number & ((std::size_t{1} << (2 * depth_)) - 1));
   Piece p;
   p.chart = chart_;
+  p.face = static_cast<std::int32_t>(cell_number >> (2 * depth_));
   p.corner = corners(index);
   p.deviation = deviation_[index];
   p.irregular = irregular_[index];
   p.rough = !rough_.empty() && rough_[index] != 0;
+  std::array<std::array<int, 2>, 3> at{};
   if (chart_.is_square()) {
-    const auto quad = static_cast<std::int64_t>(index / 2), within_face = quad % (n * n);
-    p.face = static_cast<std::int32_t>(quad / (n * n));
-    const QuadCell its =
-        cell(static_cast<int>(within_face % n), static_cast<int>(within_face / n), static_cast<int>(n));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto& [i, j] = its[kHalves[index % 2][k]];
-      p.at[k] = Chart::at(i * s, j * s);
-    }
-    return p;
+    const QuadCell quad = cell(within_face % n, within_face / n, n);
+    for (std::size_t k = 0; k < 3; ++k) at[k] = quad[kHalves[index % 2][k]];
+  } else {
+    at = triangle(within_face, n);
   }
-  // Of a triangle, first the upright triangles, rows of equal j, then the others.
-  const auto within = static_cast<std::int64_t>(index) % (n * n);
-  const std::int64_t upright = n * (n + 1) / 2;
-  std::int64_t left = within < upright ? within : within - upright, i = 0, j = 0;
-  for (std::int64_t row = within < upright ? n : n - 1; left >= row; --row, ++j) left -= row;
-  i = left;
-  p.face = static_cast<std::int32_t>(static_cast<std::int64_t>(index) / (n * n));
-  const auto at = [&](std::int64_t a, std::int64_t b) {
-    return Chart::Affine{static_cast<double>(n - a - b) * s, static_cast<double>(a) * s,
-                         static_cast<double>(b) * s};
-  };
-  if (within < upright)
-    p.at = {at(i, j), at(i + 1, j), at(i, j + 1)};
-  else
-    p.at = {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+  for (std::size_t k = 0; k < 3; ++k) p.at[k] = Chart::at(at[k][0] * s, at[k][1] * s);
   return p;
 }
 

@@ -133,19 +133,6 @@ void read(const Json& json, T& value) {
   }
 }
 
-template <class T>
-Json list_json(const std::vector<T>& values) {
-  Json list = Json::array();
-  for (const T& value : values) list.push_back(written(value));
-  return list;
-}
-template <class T>
-std::vector<T> list_of(const Json& json) {
-  std::vector<T> list;
-  for (const Json& j : json) read(j, list.emplace_back());
-  return list;
-}
-
 }  // namespace
 
 bool ProofReport::held() const {
@@ -360,17 +347,22 @@ std::string ProofReport::json() const {
       .dump(2);
 }
 
-Json proof_rows_json(const std::vector<ProofRow>& rows) {
-  return list_json(rows);
+template <class T>
+Json list_json(const std::vector<T>& values) {
+  Json list = Json::array();
+  for (const T& value : values) list.push_back(written(value));
+  return list;
 }
-std::vector<ProofRow> proof_rows_of(const Json& json) {
-  return list_of<ProofRow>(json);
+template Json list_json(const std::vector<ProofRow>&);
+template Json list_json(const std::vector<CertifiedLine>&);
+
+template <class T>
+std::vector<T> list_of(const Json& json) {
+  std::vector<T> list;
+  for (const Json& j : json) read(j, list.emplace_back());
+  return list;
 }
-Json certified_json(const std::vector<CertifiedLine>& lines) {
-  return list_json(lines);
-}
-std::vector<CertifiedLine> certified_of(const Json& json) {
-  return list_of<CertifiedLine>(json);
-}
+template std::vector<ProofRow> list_of<ProofRow>(const Json&);
+template std::vector<CertifiedLine> list_of<CertifiedLine>(const Json&);
 
 }  // namespace limitcheck::verify

@@ -6,8 +6,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <mutex>
 #include <set>
@@ -35,32 +37,46 @@ double estimated_seconds(const ProofTask& task) {
   const double weight = o.arithmetic == Arithmetic::kResidues ? 2e-6 : 8e-5;
   double seconds = weight * vertices * at(o.last_depth);
   if (task.bounds) {
-    const double points = at(task.bounds->last_depth) * (task.bounds->last_depth > 4 ? 1. / 5 : 1);
-    seconds += (3e-4 + 1e-6 * vertices) * at(task.bounds->last_depth) + 2e-6 * points * task.bounds->meshes +
-               1e-6 * vertices * at(task.bounds->last_depth);
+    const auto& [first, last, meshes] = *task.bounds;
+    seconds += (3e-4 + 2e-6 * vertices + 2e-6 * meshes * (last > 4 ? 1. / 5 : 1)) * at(last);
   }
   return seconds;
 }
 
-/// Collects the tasks of a scheme's set, no deeper than was asked for.
-struct TaskList {
-  const ProofRequest& request;
-  ProofSet set{};
+/// The first and the last of some depths; none without a last.
+struct Depths {
+  int first = 0, last = -1;
+};
 
-  void add(const char* group, const std::vector<Neighbourhood>& topologies, Arithmetic arithmetic, int first,
-           int last, std::optional<BoundOptions> bounds = {}) {
-    MapOptions options{arithmetic, first, std::min(last, request.depth), request.sliding_window,
-                       request.row_stream};
-    if (options.last_depth < first) return;
-    if (bounds) bounds->last_depth = std::min(bounds->last_depth, request.depth);
-    if (bounds && bounds->last_depth < bounds->first_depth) bounds.reset();
-    for (const Neighbourhood& topology : topologies) {
-      ProofTask task{group, topology, options, bounds, 0};
+/// Some topologies in one arithmetic, with the depths of their maps and of their bounds: in the standard set, and in the
+/// full one.
+struct Group {
+  const char* name;
+  const std::vector<Neighbourhood>& topologies;
+  Arithmetic arithmetic;
+  std::array<Depths, 2> map, bounds{};
+};
+
+/// The tasks of these groups, no deeper than was asked for.
+///   meshes   tried against the bounds at each depth, in either set; of spheres always 40
+std::vector<ProofTask> tasks_of(const ProofRequest& request, std::array<int, 2> meshes,
+                                std::initializer_list<Group> groups) {
+  const std::size_t size = request.size == ProofSize::kFull ? 1 : 0;
+  std::vector<ProofTask> tasks;
+  for (const Group& group : groups) {
+    const auto last = [&](const Depths& depths) { return std::min(depths.last, request.depth); };
+    const Depths &map = group.map[size], &bounds = group.bounds[size];
+    if (last(map) < map.first) continue;
+    for (const Neighbourhood& topology : group.topologies) {
+      ProofTask& task = tasks.emplace_back(ProofTask{group.name, topology, {}, {}, 0});
+      task.options = {group.arithmetic, map.first, last(map), request.sliding_window, request.row_stream};
+      if (last(bounds) >= bounds.first)
+        task.bounds = {bounds.first, last(bounds), task.group == "spheres" ? 40 : meshes[size]};
       task.estimate = estimated_seconds(task);
-      set.tasks.push_back(std::move(task));
     }
   }
-};
+  return tasks;
+}
 
 /// Pairs that hold every triple, two at a time where there is such a mesh.
 std::vector<Neighbourhood> triples(const std::vector<int>& valences, std::vector<std::string>& impossible) {
@@ -146,52 +162,49 @@ void add_new(std::vector<Neighbourhood>& to, std::vector<Neighbourhood> from, st
     if (seen.insert(topology.name).second) to.push_back(std::move(topology));
 }
 
+using enum Arithmetic;
+
 ProofSet triangle_proof_set(const ProofRequest& request) {
   const bool full = request.size == ProofSize::kFull;
-  TaskList list{request};
-  const int meshes = full ? 400 : 40;
-
-  const auto interior = triples(request.valences, list.set.impossible);
+  ProofSet set;
+  const auto interior = triples(request.valences, set.impossible);
   const auto once = each_triple_once(interior);
-  list.add("triples", interior, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, 4, meshes});
-  list.add("deep", once, Arithmetic::kResidues, 5, request.depth,
-           full ? std::optional(BoundOptions{5, 6, meshes}) : std::nullopt);
-  list.add("digits", full ? interior : once, Arithmetic::kDigits, 0, full ? 3 : 2);
-
-  std::vector<Neighbourhood> rational, high, boundary;
+  std::vector<Neighbourhood> rational, high, boundary, spheres;
   for (const Valences& v : quadruples({3, 4, 6}))
     if (auto pair = interior_pair(v)) rational.push_back(std::move(*pair));
-  list.add("rational", rational, Arithmetic::kExact, 0, full ? 5 : 2);
-
   for (const int n : {20, 50, 100})
-    for (const auto& valences :
-         {std::array{n, 6, 6, 6}, std::array{6, n, 6, 6}, std::array{n, 5, 7, 6}, std::array{n, n, n, n}})
-      high.push_back(*interior_pair(valences));
-  list.add("high", high, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
-  if (!full) std::erase_if(high, [](const Neighbourhood& pair) { return pair.mesh.positions.size() > 100; });
-  list.add("high", high, Arithmetic::kDigits, 0, full ? 3 : 1);
-
+    for (const Valences& v :
+         {Valences{n, 6, 6, 6}, Valences{6, n, 6, 6}, Valences{n, 5, 7, 6}, Valences{n, n, n, n}})
+      high.push_back(*interior_pair(v));
+  std::vector<Neighbourhood> small = high;
+  if (!full) std::erase_if(small, [](const Neighbourhood& pair) { return pair.mesh.positions.size() > 100; });
   std::set<std::string> seen;
   add_new(boundary, boundary_pairs({6, 6, 6, 6}), seen);
-  if (full) list.add("boundary-deep", boundary, Arithmetic::kResidues, 5, 6, BoundOptions{5, 6, meshes});
-  if (!full) list.add("boundary", boundary, Arithmetic::kDigits, 0, 1);
-  for (const auto& valences : {std::array{5, 4, 7, 8}, std::array{3, 6, 6, 5}, std::array{6, 3, 5, 6}})
-    add_new(boundary, boundary_pairs(valences), seen);
-  list.add("boundary", boundary, Arithmetic::kResidues, 0, full ? 6 : 3,
-           BoundOptions{0, full ? 4 : 3, meshes});
-  if (full) list.add("boundary", boundary, Arithmetic::kDigits, 0, 3);
-
-  const std::vector<Neighbourhood> alone{face_alone()};
-  list.add("alone", alone, Arithmetic::kResidues, 0, full ? 6 : 4, BoundOptions{0, full ? 6 : 4, meshes});
-  list.add("alone", alone, Arithmetic::kDigits, 0, full ? 4 : 2);
-  list.add("alone", alone, Arithmetic::kExact, 0, full ? 6 : 3);
-
-  std::vector<Neighbourhood> spheres;
+  const std::vector<Neighbourhood> regular = boundary, alone{face_alone()};
+  for (const Valences& v : {Valences{5, 4, 7, 8}, Valences{3, 6, 6, 5}, Valences{6, 3, 5, 6}})
+    add_new(boundary, boundary_pairs(v), seen);
   seen.clear();
   for (const int faces : full ? std::vector{200, 800, 2000, 4000} : std::vector{200})
     add_new(spheres, pairs_of(data::bumpy_sphere(faces, 1)), seen);
-  list.add("spheres", spheres, Arithmetic::kResidues, 0, full ? 6 : 3, BoundOptions{0, full ? 4 : 3, 40});
-  return std::move(list.set);
+
+  set.tasks = tasks_of(
+      request, {40, 400},
+      {// Every triple of valences, each of its corners once facing the pair's diagonal; then every triple once.
+       {"triples", interior, kResidues, {{{0, 4}, {0, 6}}}, {{{0, 4}, {0, 4}}}},
+       {"deep", once, kResidues, {{{5, 10}, {5, 10}}}, {{{}, {5, 6}}}},
+       {"digits", full ? interior : once, kDigits, {{{0, 2}, {0, 3}}}},
+       {"rational", rational, kExact, {{{0, 2}, {0, 5}}}},
+       {"high", high, kResidues, {{{0, 4}, {0, 6}}}, {{{0, 4}, {0, 6}}}},
+       {"high", small, kDigits, {{{0, 1}, {0, 3}}}},
+       {"boundary-deep", regular, kResidues, {{{}, {5, 6}}}, {{{}, {5, 6}}}},
+       {"boundary", regular, kDigits, {{{0, 1}, {}}}},
+       {"boundary", boundary, kResidues, {{{0, 3}, {0, 6}}}, {{{0, 3}, {0, 4}}}},
+       {"boundary", boundary, kDigits, {{{}, {0, 3}}}},
+       {"alone", alone, kResidues, {{{0, 4}, {0, 6}}}, {{{0, 4}, {0, 6}}}},
+       {"alone", alone, kDigits, {{{0, 2}, {0, 4}}}},
+       {"alone", alone, kExact, {{{0, 3}, {0, 6}}}},
+       {"spheres", spheres, kResidues, {{{0, 3}, {0, 6}}}, {{{0, 3}, {0, 4}}}}});
+  return set;
 }
 
 Valences turned(const Valences& v, std::size_t by) {
@@ -218,50 +231,25 @@ std::vector<Neighbourhood> quads_of(const std::vector<Valences>& valences) {
 
 ProofSet quad_proof_set(const ProofRequest& request) {
   const bool full = request.size == ProofSize::kFull;
-  TaskList list{request};
-  const auto add = [&](const char* group, const std::vector<Neighbourhood>& quads, Arithmetic arithmetic,
-                       int last, std::optional<BoundOptions> bounds = {}) {
-    list.add(group, quads, arithmetic, 0, last, bounds);
-  };
-  const int meshes = full ? 200 : 20;
-
-  const std::vector<Valences> all = quadruples(request.valences), once = up_to_turns(all);
-  add("quadruples", quads_of(all), Arithmetic::kResidues, full ? 4 : 2,
-      BoundOptions{0, full ? 4 : 2, meshes});
-  add("quadruples", quads_of(once), Arithmetic::kExact, full ? 3 : 1);
-  add("quadruples", quads_of(once), Arithmetic::kDigits, full ? 2 : 0);
-
-  const std::vector<Neighbourhood> regular{interior_quad({4, 4, 4, 4})};
-  std::vector<Valences> deep, high;
+  const std::vector<Valences> quadruple = quadruples(request.valences);
+  const auto all = quads_of(quadruple), once = quads_of(up_to_turns(quadruple));
+  std::vector<Valences> some, many;
   for (const Valences& v :
        {Valences{4, 4, 4, 3}, Valences{5, 4, 4, 4}, Valences{3, 5, 7, 4}, Valences{6, 3, 8, 5}})
-    for (std::size_t k = 0; k < 4; ++k) deep.push_back(turned(v, k));
-  std::vector<Neighbourhood> deeper = quads_of(deep);
-  deeper.push_back(regular.front());
-  add("deep", deeper, Arithmetic::kResidues, full ? 7 : 6, BoundOptions{0, full ? 6 : 5, meshes});
-  add("deep", deeper, Arithmetic::kExact, full ? 5 : 3);
-  add("deep", deeper, Arithmetic::kDigits, full ? 4 : 2);
-
+    for (std::size_t k = 0; k < 4; ++k) some.push_back(turned(v, k));
+  some.push_back({4, 4, 4, 4});
   for (const int n : {20, 50})
     for (const Valences& v :
          {Valences{n, 4, 4, 4}, Valences{n, 3, 5, 8}, Valences{n, n, 4, 3}, Valences{n, n, n, n}})
-      for (std::size_t k = 0; k < (v[1] == n && v[2] == n ? 1U : 4U); ++k) high.push_back(turned(v, k));
-  add("high", quads_of(high), Arithmetic::kResidues, full ? 5 : 2, BoundOptions{0, full ? 4 : 2, meshes});
-  if (!full) std::erase_if(high, [](const Valences& v) { return v[0] + v[1] + v[2] + v[3] > 70; });
-  add("high", quads_of(high), Arithmetic::kExact, full ? 2 : 1);
-  add("high", quads_of(high), Arithmetic::kDigits, full ? 1 : 0);
+      for (std::size_t k = 0; k < (v[1] == n && v[2] == n ? 1U : 4U); ++k) many.push_back(turned(v, k));
+  const auto deep = quads_of(some), high = quads_of(many);
+  if (!full) std::erase_if(many, [](const Valences& v) { return v[0] + v[1] + v[2] + v[3] > 70; });
+  const auto small = quads_of(many);
 
   std::vector<Neighbourhood> boundary, cuts, darts, semi_sharp;
   std::set<std::string> seen;
-  for (const Valences& v : full
-                               ? std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}, Valences{3, 3, 8, 5}}
-                               : std::vector{Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}})
-    add_new(boundary, boundary_quads(v), seen);
-  add("boundary", boundary, Arithmetic::kResidues, full ? 5 : 3, BoundOptions{0, full ? 4 : 2, meshes});
-  add("boundary", boundary, Arithmetic::kExact, full ? 3 : 1);
-  add("boundary", boundary, Arithmetic::kDigits, full ? 2 : 0);
-
   for (const Valences& v : {Valences{4, 4, 4, 4}, Valences{5, 3, 6, 4}}) {
+    add_new(boundary, boundary_quads(v), seen);
     for (Neighbourhood& quad : creased_quads(v)) {
       std::vector<Neighbourhood>& to = has_dart(quad.mesh) ? darts : cuts;
       to.push_back(std::move(quad));
@@ -269,11 +257,28 @@ ProofSet quad_proof_set(const ProofRequest& request) {
     for (Neighbourhood& quad : semi_sharp_quads(v))
       if (!has_dart(quad.mesh)) semi_sharp.push_back(std::move(quad));
   }
-  add("cuts", cuts, Arithmetic::kExact, full ? 3 : 2, BoundOptions{0, full ? 4 : 2, meshes});
-  add("cuts", cuts, Arithmetic::kDigits, full ? 2 : 0);
-  add("darts", darts, Arithmetic::kDigits, full ? 3 : 1, BoundOptions{0, full ? 4 : 2, meshes});
-  add("semi-sharp", semi_sharp, Arithmetic::kExact, full ? 3 : 1, BoundOptions{0, full ? 4 : 2, meshes});
-  return std::move(list.set);
+  if (full) add_new(boundary, boundary_quads({3, 3, 8, 5}), seen);
+
+  ProofSet set;
+  set.tasks = tasks_of(request, {20, 200},
+                       {// Every four valences in every order; then one of their turns.
+                        {"quadruples", all, kResidues, {{{0, 2}, {0, 4}}}, {{{0, 2}, {0, 4}}}},
+                        {"quadruples", once, kExact, {{{0, 1}, {0, 3}}}},
+                        {"quadruples", once, kDigits, {{{0, 0}, {0, 2}}}},
+                        {"deep", deep, kResidues, {{{0, 6}, {0, 7}}}, {{{0, 5}, {0, 6}}}},
+                        {"deep", deep, kExact, {{{0, 3}, {0, 5}}}},
+                        {"deep", deep, kDigits, {{{0, 2}, {0, 4}}}},
+                        {"high", high, kResidues, {{{0, 2}, {0, 5}}}, {{{0, 2}, {0, 4}}}},
+                        {"high", small, kExact, {{{0, 1}, {0, 2}}}},
+                        {"high", small, kDigits, {{{0, 0}, {0, 1}}}},
+                        {"boundary", boundary, kResidues, {{{0, 3}, {0, 5}}}, {{{0, 2}, {0, 4}}}},
+                        {"boundary", boundary, kExact, {{{0, 1}, {0, 3}}}},
+                        {"boundary", boundary, kDigits, {{{0, 0}, {0, 2}}}},
+                        {"cuts", cuts, kExact, {{{0, 2}, {0, 3}}}, {{{0, 2}, {0, 4}}}},
+                        {"cuts", cuts, kDigits, {{{0, 0}, {0, 2}}}},
+                        {"darts", darts, kDigits, {{{0, 1}, {0, 3}}}, {{{0, 2}, {0, 4}}}},
+                        {"semi-sharp", semi_sharp, kExact, {{{0, 1}, {0, 3}}}, {{{0, 2}, {0, 4}}}}});
+  return set;
 }
 
 std::optional<BoundProof> bound_of(const std::string& kernel, const ProofTask& task) {

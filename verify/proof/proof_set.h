@@ -108,43 +108,7 @@ struct ProofSet {
   int certified_points = 12;
 };
 
-/// Groups, with the depths in the standard | full set; at most request.depth.
-///
-///     group          topologies                                           arithmetic  map        bounds
-///     triples        every triple of valences, each of its corners once   residues    0-4 | 0-6  0-4 | 0-4
-///                    facing the pair's diagonal
-///     deep           every triple once                                    residues    5-6 | 5-6    - | 5-6
-///     digits         as deep | as triples; against Stam's evaluator too   digits      0-2 | 0-3
-///     rational       all pairs with valences 3, 4 and 6                   exact       0-2 | 0-5
-///     high           valences 20, 50 and 100                              residues    0-4 | 0-6  0-4 | 0-6
-///                    (standard: those with at most 100 control points)    digits      0-1 | 0-3
-///     boundary       boundary edges and vertices around pairs of          residues    0-3 | 0-6  0-3 | 0-4
-///                    several valences (standard digits: of the regular)   digits      0-1 | 0-3
-///     boundary-deep  those around the regular pair                        residues      - | 5-6    - | 5-6
-///     alone          the face without neighbours                          residues    0-4 | 0-6  0-4 | 0-6
-///                                                                         digits      0-2 | 0-4
-///                                                                         exact       0-3 | 0-6
-///     spheres        every pair of the bumpy sphere of 200 | of 200,      residues    0-3 | 0-6  0-3 | 0-4
-///                    800, 2000 and 4000 faces
-///
-/// and of Catmull-Clark's scheme:
-///
-///     quadruples     every four valences in every order                   residues    0-2 | 0-4  0-2 | 0-4
-///                    every four valences, one of their turns              exact       0-1 | 0-3
-///                                                                         digits      0   | 0-2
-///     deep           the regular quad and four others, in turns           residues    0-6 | 0-7  0-5 | 0-6
-///                                                                         exact       0-3 | 0-5
-///                                                                         digits      0-2 | 0-4
-///     high           valences 20 and 50, in turns                         residues    0-2 | 0-5  0-2 | 0-4
-///                    (standard: those that sum to 70 or less)             exact       0-1 | 0-2
-///                                                                         digits      0   | 0-1
-///     boundary       boundary edges and vertices around quads of two |    residues    0-3 | 0-5  0-2 | 0-4
-///                    three kinds                                          exact       0-1 | 0-3
-///                                                                         digits      0   | 0-2
-///     cuts           creases and corners at quads of two kinds            exact       0-2 | 0-3  0-2 | 0-4
-///                                                                         digits      0   | 0-2
-///     darts          those with a dart                                    digits      0-1 | 0-3  0-2 | 0-4
-///     semi-sharp     semi-sharp edges and vertices, sliding window        exact       0-1 | 0-3  0-2 | 0-4
+/// The groups of topologies, each with its arithmetics and depths, stand in the tables of proof_set.cpp.
 ProofSet proof_set(const ProofRequest& request);
 
 struct ProofProgress {
@@ -192,11 +156,10 @@ class ProofReport {
   const std::vector<CertifiedLine> certified_;
 };
 
-/// The same as JSON that loses nothing, to go on with and to merge.
-nlohmann::json proof_rows_json(const std::vector<ProofRow>& rows);
-std::vector<ProofRow> proof_rows_of(const nlohmann::json& json);
-
-nlohmann::json certified_json(const std::vector<CertifiedLine>& lines);
-std::vector<CertifiedLine> certified_of(const nlohmann::json& json);
+/// Rows, and certified lines, as JSON that loses nothing, to go on with and to merge.
+template <class T>
+nlohmann::json list_json(const std::vector<T>& values);
+template <class T>
+std::vector<T> list_of(const nlohmann::json& json);
 
 }  // namespace limitcheck::verify

@@ -97,23 +97,17 @@ using Edge = SurfaceReport::Edge;
 constexpr std::size_t kWitnesses = 16;
 constexpr std::int32_t kGrain = 4096;
 
-// The findings of one block of consecutive points. Blocks are joined in order, so the result does not depend
-// on threads.
-struct Block {
-  std::int64_t directed_edges = 0, crowded = 0, clashing = 0, bow_ties = 0, duplicates = 0;
-  std::vector<Edge> open, crowded_witness, clashing_witness;
-  std::vector<std::int32_t> bow_tie_witness, duplicate_witness;
-};
-
 template <class T>
-void witness(std::vector<T>& list, const T& value) {
-  if (list.size() < kWitnesses) list.push_back(value);
+void note(std::int64_t& count, std::vector<T>& witnesses, const T& value) {
+  ++count;
+  if (witnesses.size() < kWitnesses) witnesses.push_back(value);
 }
 
 template <class T>
-void append(std::vector<T>& list, const std::vector<T>& more, std::size_t limit) {
-  list.insert(list.end(), more.begin(),
-              more.begin() + std::min(more.size(), limit - std::min(limit, list.size())));
+void append(std::int64_t& count, std::vector<T>& witnesses, std::int64_t more, const std::vector<T>& theirs) {
+  count += more;
+  witnesses.insert(witnesses.end(), theirs.begin(),
+                   theirs.begin() + std::min(theirs.size(), kWitnesses - witnesses.size()));
 }
 
 // The star of a point v: for each triangle (v, next, previous) counter-clockwise. The directed edge v -> next
@@ -124,7 +118,7 @@ struct Ray {
 
 class StarInspector {
  public:
-  void inspect(std::int32_t v, std::span<Ray> star, Block& out) {
+  void inspect(std::int32_t v, std::span<Ray> star, SurfaceReport& out) {
     std::sort(star.begin(), star.end(), [](const Ray& a, const Ray& b) {
       return a.next != b.next ? a.next < b.next : a.triangle < b.triangle;
     });
@@ -134,15 +128,12 @@ class StarInspector {
     });
     edges(v, star, out);
     duplicates(v, star, out);
-    if (fans(star) > 1) {
-      ++out.bow_ties;
-      witness(out.bow_tie_witness, v);
-    }
+    if (fans(star) > 1) note(out.bow_tie_points, out.bow_tie_witness, v);
   }
 
  private:
   // Every neighbour w: how many triangles run v -> w, how many w -> v.
-  void edges(std::int32_t v, std::span<const Ray> star, Block& out) {
+  void edges(std::int32_t v, std::span<const Ray> star, SurfaceReport& out) {
     std::size_t i = 0, j = 0;
     while (i < star.size() || j < by_previous_.size()) {
       const std::int32_t w =
@@ -154,31 +145,26 @@ class StarInspector {
       while (j < by_previous_.size() && by_previous_[j].previous == w) ++j;
       const std::size_t away = i - i0, back = j - j0;
       const Edge edge{v, w, away > 0 ? star[i0].triangle : by_previous_[j0].triangle};
-      if (away == 1 && back == 0) out.open.push_back(edge);
+      if (away == 1 && back == 0) out.open_edges.push_back(edge);
       if (v > w) continue;  // undirected facts are told once, by the smaller point
-      ++out.directed_edges;
-      if (away + back > 2) {
-        ++out.crowded;
-        witness(out.crowded_witness, edge);
-      } else if (away == 2 || back == 2) {
-        ++out.clashing;
-        witness(out.clashing_witness, edge);
-      }
+      ++out.edges;
+      if (away + back > 2)
+        note(out.crowded_edges, out.crowded_witness, edge);
+      else if (away == 2 || back == 2)
+        note(out.clashing_edges, out.clashing_witness, edge);
     }
   }
 
   // Counted once, by the smallest of the three points.
-  void duplicates(std::int32_t v, std::span<const Ray> star, Block& out) {
+  void duplicates(std::int32_t v, std::span<const Ray> star, SurfaceReport& out) {
     pairs_.clear();
     for (const Ray& r : star)
       if (v < r.next && v < r.previous)
         pairs_.push_back({std::min(r.next, r.previous), std::max(r.next, r.previous), r.triangle});
     std::sort(pairs_.begin(), pairs_.end());
     for (std::size_t k = 1; k < pairs_.size(); ++k)
-      if (pairs_[k][0] == pairs_[k - 1][0] && pairs_[k][1] == pairs_[k - 1][1]) {
-        ++out.duplicates;
-        witness(out.duplicate_witness, pairs_[k][2]);
-      }
+      if (pairs_[k][0] == pairs_[k - 1][0] && pairs_[k][1] == pairs_[k - 1][1])
+        note(out.duplicate_triangles, out.duplicate_witness, pairs_[k][2]);
   }
 
   // The number of fans: triangles of the star joined where they share a neighbour.
@@ -261,12 +247,10 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
   // The stars, laid out one after the other (counting sort by point).
   std::vector<std::int32_t> start(static_cast<std::size_t>(point_count) + 1, 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (is_degenerate(triangles[t])) {
-      ++report.degenerate_triangles;
-      witness(report.degenerate_witness, static_cast<std::int32_t>(t));
-      continue;
-    }
-    for (const std::int32_t p : triangles[t]) ++start[p + 1];
+    if (is_degenerate(triangles[t]))
+      note(report.degenerate_triangles, report.degenerate_witness, static_cast<std::int32_t>(t));
+    else
+      for (const std::int32_t p : triangles[t]) ++start[p + 1];
   }
   for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
   std::vector<Ray> rays(start.back());
@@ -281,7 +265,9 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
   }
 
   const auto block_count = static_cast<std::int32_t>((point_count + kGrain - 1) / kGrain);
-  std::vector<Block> blocks(block_count);
+  // What is found in each block of consecutive points. They are joined in order, so that the result does not depend
+  // on threads.
+  std::vector<SurfaceReport> blocks(block_count);
   tbb::parallel_for(tbb::blocked_range<std::int32_t>(0, block_count, 1), [&](const auto& range) {
     StarInspector inspector;
     for (std::int32_t b = range.begin(); b < range.end(); ++b) {
@@ -292,17 +278,13 @@ SurfaceReport inspect_surface(std::int64_t point_count, std::span<const Triangle
           inspector.inspect(p, std::span(rays).subspan(start[p], start[p + 1] - start[p]), blocks[b]);
     }
   });
-  for (const Block& b : blocks) {
-    report.edges += b.directed_edges;
-    report.crowded_edges += b.crowded;
-    report.clashing_edges += b.clashing;
-    report.bow_tie_points += b.bow_ties;
-    report.duplicate_triangles += b.duplicates;
-    append(report.open_edges, b.open, b.open.size() + report.open_edges.size());
-    append(report.crowded_witness, b.crowded_witness, kWitnesses);
-    append(report.clashing_witness, b.clashing_witness, kWitnesses);
-    append(report.bow_tie_witness, b.bow_tie_witness, kWitnesses);
-    append(report.duplicate_witness, b.duplicate_witness, kWitnesses);
+  for (const SurfaceReport& b : blocks) {
+    report.edges += b.edges;
+    append(report.crowded_edges, report.crowded_witness, b.crowded_edges, b.crowded_witness);
+    append(report.clashing_edges, report.clashing_witness, b.clashing_edges, b.clashing_witness);
+    append(report.bow_tie_points, report.bow_tie_witness, b.bow_tie_points, b.bow_tie_witness);
+    append(report.duplicate_triangles, report.duplicate_witness, b.duplicate_triangles, b.duplicate_witness);
+    report.open_edges.insert(report.open_edges.end(), b.open_edges.begin(), b.open_edges.end());
   }
   report.open_loops = count_loops(point_count, report.open_edges);
   return report;

@@ -16,7 +16,7 @@
 #include "fast/mesh/adjacency.h"
 #include "verify/proof/maps/prove_map.h"
 #include "verify/proof/maps/reference_map.h"
-#include "verify/proof/numbers/residue.h"
+#include "verify/proof/numbers/coefficient.h"
 #include "verify/proof/topologies/neighbourhood.h"
 
 namespace limitcheck::verify {

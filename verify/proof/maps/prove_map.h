@@ -15,7 +15,7 @@ enum class Arithmetic : std::uint8_t {
   /// a + b sqrt(3), a and b rational: valences 3, 4, 6, boundary vertices of 1, 2, 3 faces. Quads: rationals,
   /// all positions but those of darts, and all tangents but those of irregular control vertices.
   kExact,
-  kResidues,  ///< modulo two primes (residue.h): any valence that divides Residue::kOrder; quads: as kExact
+  kResidues,  ///< modulo two primes (coefficient.h): any valence that divides Residue::kOrder; quads: as kExact
   kDigits     ///< 50 decimal digits, equal to 45: any valence; the reference both by recursion and by Stam
 };
 

@@ -4,11 +4,7 @@
 namespace limitcheck::verify::detail {
 
 std::vector<ProofRow> prove_exactly(const Neighbourhood& neighbourhood, const MapOptions& options) {
-  return by_scheme(neighbourhood.mesh, [&]<class Scheme>(Scheme) {
-    using C = std::conditional_t<Scheme::kQuads, reference::Rational, Surd>;
-    using Maps = std::tuple<QuickMap<C, Scheme::kQuads>>;
-    return prove_map<Scheme, C>(neighbourhood, options, Maps(neighbourhood.mesh));
-  });
+  return prove_in<Surd, reference::Rational, QuickMap>(neighbourhood, options);
 }
 
 }  // namespace limitcheck::verify::detail

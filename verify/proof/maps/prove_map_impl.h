@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "data/splitmix64.h"
@@ -279,13 +280,14 @@ void check_scale(ProofRow& row) {
   }
 }
 
-///   Maps   a tuple of reference's maps
-template <class Scheme, class C, class Maps>
-std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options, Maps maps) {
+///   Maps   the reference's
+template <class Scheme, class C, class... Maps>
+std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOptions& options) {
   std::vector<ProofRow> rows;
   const data::ControlMesh& mesh = neighbourhood.mesh;
   SchemeRuns<Scheme, Stencil<C>, StencilLane<C>::template Lane> runs(mesh,
                                                                      identity<C>(mesh.positions.size()));
+  std::tuple<Maps...> maps{Maps(mesh)...};
   for (const ProvedKernel kernel : kProvedKernels) {
     if (!(is_stream(kernel) ? options.row_stream : options.sliding_window) || !runs.has(kernel)) continue;
     MapOptions depths = options;
@@ -297,6 +299,15 @@ std::vector<ProofRow> prove_map(const Neighbourhood& neighbourhood, const MapOpt
       check_scale<Scheme>(rows.back());
   }
   return rows;
+}
+
+/// In weights of either scheme, against these maps of the reference.
+template <class OfTriangles, class OfQuads, template <class, bool> class... Map>
+std::vector<ProofRow> prove_in(const Neighbourhood& neighbourhood, const MapOptions& options) {
+  return by_scheme(neighbourhood.mesh, [&]<class Scheme>(Scheme) {
+    using C = std::conditional_t<Scheme::kQuads, OfQuads, OfTriangles>;
+    return prove_map<Scheme, C, Map<C, Scheme::kQuads>...>(neighbourhood, options);
+  });
 }
 
 }  // namespace detail

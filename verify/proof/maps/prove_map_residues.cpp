@@ -5,10 +5,7 @@
 namespace limitcheck::verify::detail {
 
 std::vector<ProofRow> prove_in_residues(const Neighbourhood& neighbourhood, const MapOptions& options) {
-  return by_scheme(neighbourhood.mesh, [&]<class Scheme>(Scheme) {
-    using Maps = std::tuple<QuickMap<Residue, Scheme::kQuads>>;
-    return prove_map<Scheme, Residue>(neighbourhood, options, Maps(neighbourhood.mesh));
-  });
+  return prove_in<Residue, Residue, QuickMap>(neighbourhood, options);
 }
 
 }  // namespace limitcheck::verify::detail

@@ -2,14 +2,71 @@
 // The number types of weights, with the functions that kernels and reference need of them. For .cpp files.
 #pragma once
 
+#include <flint/nmod_vec.h>
+
+#include <array>
+#include <boost/operators.hpp>
+#include <concepts>
+#include <cstdint>
+#include <cstdlib>
+
 #include "data/error.h"
 #include "reference/number/number_exact.h"
-#include "verify/proof/numbers/residue.h"
 
 namespace limitcheck::verify {
 
+/// Loop's weights are quotients of integer polynomials in cosines and sines of 2 pi p / q. Modulo a prime
+/// that is 1 modulo 4 q those are ordinary residues, sums and products of roots of unity, and the map from
+/// the number field to the residues respects + - * /. So equal numbers have equal residues; different ones
+/// agree modulo both primes (each near 2^60) with a chance of about 2^-120. `approximation` is the number
+/// itself in double: it tells signs, and how large a difference is, nothing else.
+class Residue : boost::ordered_field_operators<Residue> {
+ public:
+  Residue() = default;
+  Residue(int value);  // NOLINT: integers are residues
+  /// cos(2 pi p / q); throws data::ArgumentError unless q divides kOrder.
+  static Residue cosine(std::int64_t p, std::int64_t q);
+
+  /// 16 * 9 * 25 * 7 * 11 * 13 * 17 * 19 * 4: with every n up to 20, with 50 and 100, 4 n divides it.
+  static constexpr std::int64_t kOrder = 4655851200;
+
+  double approximation() const { return approximation_; }
+  bool is_zero() const { return residue_ == Pair{}; }
+
+  Residue& operator+=(const Residue& b) {
+    for (std::size_t k = 0; k < 2; ++k) residue_[k] = nmod_add(residue_[k], b.residue_[k], moduli_[k]);
+    approximation_ += b.approximation_;
+    return *this;
+  }
+  Residue& operator-=(const Residue& b) {
+    for (std::size_t k = 0; k < 2; ++k) residue_[k] = nmod_sub(residue_[k], b.residue_[k], moduli_[k]);
+    approximation_ -= b.approximation_;
+    return *this;
+  }
+  Residue& operator*=(const Residue& b) {
+    for (std::size_t k = 0; k < 2; ++k) residue_[k] = nmod_mul(residue_[k], b.residue_[k], moduli_[k]);
+    approximation_ *= b.approximation_;
+    return *this;
+  }
+  /// Throws data::ArgumentError: by zero.
+  Residue& operator/=(const Residue& b) { return *this *= b.inverse(); }
+
+  friend Residue operator-(const Residue& a) { return Residue() - a; }
+  friend bool operator==(const Residue& a, const Residue& b) { return a.residue_ == b.residue_; }
+  friend bool operator<(const Residue& a, const Residue& b) { return a.approximation_ < b.approximation_; }
+
+ private:
+  friend struct ResidueTables;
+  using Pair = std::array<std::uint64_t, 2>;
+  Residue inverse() const;
+  static const nmod_t moduli_[2];
+
+  Pair residue_{};
+  double approximation_ = 0;
+};
+
 /// a + b sqrt(3), a and b rational: what the weights of valences 3, 4 and 6 are made of.
-struct Surd {
+struct Surd : boost::ordered_field_operators<Surd> {
   reference::Rational a, b;
   bool known = true;  ///< false: depends on another irrational number, and equals nothing
 
@@ -17,7 +74,7 @@ struct Surd {
   Surd(int value) : a(value) {}  // NOLINT: integers are surds
   explicit Surd(reference::Rational rational, reference::Rational root = 0)
       : a(std::move(rational)), b(std::move(root)) {}
-  /// cos, sin (2 pi p / q); unknown if it is neither rational nor a multiple of sqrt(3).
+  /// cos(2 pi p / q); unknown if it is neither rational nor a multiple of sqrt(3).
   static Surd cosine(std::int64_t p, std::int64_t q) {
     using T = reference::NumberTraits<reference::Rational>;
     Surd result;
@@ -33,7 +90,6 @@ struct Surd {
     }
     return result;
   }
-  static Surd sine(std::int64_t p, std::int64_t q) { return cosine(4 * p - q, 4 * q); }
 
   double approximation() const {
     return a.convert_to<double>() + b.convert_to<double>() * 1.7320508075688772;
@@ -72,41 +128,31 @@ struct Surd {
     }
     return *this *= Surd(o.a / norm, -o.b / norm);
   }
-  friend Surd operator+(Surd x, const Surd& y) { return x += y; }
-  friend Surd operator-(Surd x, const Surd& y) { return x -= y; }
-  friend Surd operator*(Surd x, const Surd& y) { return x *= y; }
-  friend Surd operator/(Surd x, const Surd& y) { return x /= y; }
   friend Surd operator-(const Surd& x) { return Surd() - x; }
   friend bool operator==(const Surd& x, const Surd& y) {
     return x.known && y.known && x.a == y.a && x.b == y.b;
   }
   friend bool operator<(const Surd& x, const Surd& y) { return x.approximation() < y.approximation(); }
-  friend bool operator>(const Surd& x, const Surd& y) { return y < x; }
 };
+
+template <class C>
+concept Weight = std::same_as<C, Residue> || std::same_as<C, Surd> || std::same_as<C, reference::Rational> ||
+    std::same_as<C, reference::Decimal50>;
 
 /// Constructs weights from ratios, cosines and sines, and compares them.
 template <class C>
 struct Coefficient {
-  static C ratio(int p, int q) { return C(p) / C(q); }
-  static C cosine(std::int64_t p, std::int64_t q) { return C::cosine(p, q); }
-  static C sine(std::int64_t p, std::int64_t q) { return C::sine(p, q); }
-  static double approximate(const C& c) { return c.approximation(); }
-  static bool is_zero(const C& c) { return c.is_zero(); }
-  static bool equal(const C& a, const C& b) { return a == b; }
-};
-
-/// 50 decimal digits; numbers that differ by less than kTolerance are equal.
-template <>
-struct Coefficient<reference::Decimal50> {
-  using C = reference::Decimal50;
   using T = reference::NumberTraits<C>;
-  static constexpr double kTolerance = 1e-45;
+  static constexpr double kTolerance = 1e-45;  ///< decimals that differ by less are equal
   static C ratio(int p, int q) { return C(p) / C(q); }
   static C cosine(std::int64_t p, std::int64_t q) { return T::cos_pi(2 * p, q); }
   static C sine(std::int64_t p, std::int64_t q) { return T::cos_pi(4 * p - q, 2 * q); }
   static double approximate(const C& c) { return T::approximate(c); }
-  static bool is_zero(const C& c) { return c == 0; }
-  static bool equal(const C& a, const C& b) { return abs(a - b) < kTolerance; }
+  static bool is_zero(const C& c) { return c.is_zero(); }
+  static bool equal(const C& a, const C& b) {
+    if constexpr (std::same_as<C, reference::Decimal50>) return abs(a - b) < kTolerance;
+    return a == b;
+  }
 };
 
 }  // namespace limitcheck::verify
@@ -124,12 +170,15 @@ struct ProofNumberTraits {
   static constexpr int kNormalThreshold = 0;
   static constexpr int kRounding = 0;
   static double approximate(const C& a) { return a.approximation(); }
+  static C scale(const C& a, long e) {
+    const C factor = power(C(2), std::abs(e));
+    return e < 0 ? a / factor : a * factor;
+  }
 };
 
 template <>
 struct NumberTraits<verify::Residue> : ProofNumberTraits<verify::Residue> {
   using N = verify::Residue;
-  static N scale(const N& a, long e) { return a * N::power_of_two(e); }
   /// Of small numerator and denominator: lattice points.
   static N from_rational(const Rational& a) {
     return N(numerator(a).convert_to<int>()) / N(denominator(a).convert_to<int>());
@@ -138,13 +187,7 @@ struct NumberTraits<verify::Residue> : ProofNumberTraits<verify::Residue> {
 
 template <>
 struct NumberTraits<verify::Surd> : ProofNumberTraits<verify::Surd> {
-  using N = verify::Surd;
-  static N scale(const N& a, long e) {
-    N power(1);
-    for (long k = 0; k < (e < 0 ? -e : e); ++k) power *= N(2);
-    return e < 0 ? a / power : a * power;
-  }
-  static N from_rational(const Rational& a) { return N(a); }
+  static verify::Surd from_rational(const Rational& a) { return verify::Surd(a); }
 };
 
 }  // namespace limitcheck::reference

@@ -12,16 +12,6 @@
 
 namespace limitcheck::verify {
 
-/// Exact, without cosines: the rules of Catmull and Clark have none.
-template <>
-struct Coefficient<reference::Rational> {
-  using C = reference::Rational;
-  static C ratio(int p, int q) { return C(p, q); }
-  static double approximate(const C& c) { return c.convert_to<double>(); }
-  static bool is_zero(const C& c) { return c == 0; }
-  static bool equal(const C& a, const C& b) { return a == b; }
-};
-
 /// Tangents of control vertices in a field without the roots that most valences need: those of regular
 /// vertices and of corners; elsewhere none. Darts have a limit that is found by iteration alone.
 template <class C>
@@ -42,9 +32,6 @@ fast::StarWeights<C> rational_star_weights(int faces, bool open, fast::VertexKin
 }  // namespace limitcheck::verify
 
 namespace limitcheck::fast {
-
-template <>
-struct NumberTraits<reference::Rational> {};
 
 template <>
 inline StarWeights<reference::Rational> star_weights(int faces, bool open, VertexKind kind) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "verify/proof/numbers/residue.h"
-
 #include <flint/ulong_extras.h>
 
 #include <array>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "verify/proof/numbers/coefficient.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -90,16 +89,6 @@ Residue Residue::cosine(std::int64_t p, std::int64_t q) {
     found->second.approximation_ = std::cos(angle);
   }
   return found->second;
-}
-
-Residue Residue::sine(std::int64_t p, std::int64_t q) {
-  return cosine(4 * p - q, 4 * q);
-}
-
-Residue Residue::power_of_two(long exponent) {
-  Residue base = exponent < 0 ? Residue(1) / Residue(2) : Residue(2), power(1);
-  for (long k = std::abs(exponent); k > 0; --k) power *= base;
-  return power;
 }
 
 Residue Residue::inverse() const {

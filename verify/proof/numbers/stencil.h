@@ -179,26 +179,17 @@ class Stencil {
 namespace limitcheck::fast {
 
 /// Of the weights themselves.
-template <class C>
-struct WeightTraits {
+template <verify::Weight C>
+struct NumberTraits<C> {
   static C cosine(int p, int q) { return verify::Coefficient<C>::cosine(p, q); }
   static C sine(int p, int q) { return verify::Coefficient<C>::sine(p, q); }
 };
-template <>
-struct NumberTraits<verify::Residue> : WeightTraits<verify::Residue> {};
-template <>
-struct NumberTraits<verify::Surd> : WeightTraits<verify::Surd> {};
-template <>
-struct NumberTraits<reference::Decimal50> : WeightTraits<reference::Decimal50> {};
 
 template <class C>
-struct NumberTraits<verify::Stencil<C>> {
-  using K = verify::Coefficient<C>;
+struct NumberTraits<verify::Stencil<C>> : NumberTraits<C> {
   using Scalar = C;
   using Wide = verify::Stencil<C>;
-  static C ratio(int p, int q) { return K::ratio(p, q); }
-  static C cosine(int p, int q) { return K::cosine(p, q); }
-  static C sine(int p, int q) { return K::sine(p, q); }
+  static C ratio(int p, int q) { return verify::Coefficient<C>::ratio(p, q); }
   static const Wide& widen(const Wide& v) { return v; }
   static const Wide& narrow(const Wide& v) { return v; }
 };

@@ -26,22 +26,22 @@ struct LoopScheme {
   using Heuristics = DepthHeuristics;
 
   /// Refers to the mesh. Throws data::ArgumentError: what TriangleMesh refuses.
-  LoopScheme(const data::ControlMesh& mesh, const PrintedRules& by) : rules(by), triangles(mesh) {}
-  void take_points(const data::ControlMesh& /*mesh*/) { triangles.points_moved(); }
+  LoopScheme(const data::ControlMesh& mesh, const PrintedRules& by) : rules(by), cut_mesh(mesh) {}
+  void take_points(const data::ControlMesh& /*mesh*/) { cut_mesh.points_moved(); }
 
   PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const {
     return pair_faces(adjacency, depth, rules, keep);
   }
   CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
-    return plan_cracks(triangles, depth, options, rules);
+    return plan_cracks(cut_mesh, depth, options, rules);
   }
   void make(std::optional<Heuristics>& heuristics, int max_depth) const {
-    heuristics.emplace(triangles.points(), adjacency, max_depth, triangles.kinds());
+    heuristics.emplace(cut_mesh.points(), adjacency, max_depth, cut_mesh.kinds());
   }
 
   PrintedRules rules;
-  TriangleMesh triangles;
-  const Adjacency& adjacency = triangles.adjacency();
+  TriangleMesh cut_mesh;
+  const Adjacency& adjacency = cut_mesh.adjacency();
   LoopFaces faces{&adjacency};
 };
 
@@ -53,9 +53,9 @@ struct QuadScheme {
 
   /// Throws data::ArgumentError: what QuadMesh refuses.
   QuadScheme(const data::ControlMesh& mesh, const PrintedRules& /*by*/)
-      : quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
+      : cut_mesh(mesh), faces(mesh.faces, cut_mesh), semi_sharp(cut_mesh) {}
   void take_points(const data::ControlMesh& mesh) {
-    quads = QuadMesh(mesh);
+    cut_mesh = QuadMesh(mesh);
   }  // the same but for the positions
 
   /// One grid for each face that is displayed.
@@ -67,7 +67,7 @@ struct QuadScheme {
     heuristics.emplace(faces, semi_sharp, max_depth);
   }
 
-  QuadMesh quads;
+  QuadMesh cut_mesh;
   QuadFaces faces;
   SemiSharp semi_sharp;
 };

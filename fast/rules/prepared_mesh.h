@@ -17,9 +17,9 @@
 
 namespace limitcheck::fast {
 
-/// The control points, rounded to N.
-template <class N>
-std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
+/// The control points of a mesh, rounded to N.
+template <class N, class Mesh>
+std::vector<Vec3<N>> positions_of(const Mesh& mesh) {
   std::vector<Vec3<N>> positions;
   for (const auto& p : mesh.positions)
     positions.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});

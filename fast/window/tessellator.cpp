@@ -156,8 +156,8 @@ void evaluate(const PreparedMesh<Real>& mesh, const LoopPatch& patch, const Loop
 template <class Real>
 struct QuadWorker {
   QuadWorker(const QuadScheme& scheme, int max_depth)
-      : window(std::max(max_depth, 1), scheme.quads.adjacency.max_valence()),
-        edge(max_depth, scheme.quads.adjacency.max_valence()) {}
+      : window(std::max(max_depth, 1), scheme.cut_mesh.adjacency.max_valence()),
+        edge(max_depth, scheme.cut_mesh.adjacency.max_valence()) {}
 
   QuadWindow<Real> window;
   QuadEdge<Real> edge;
@@ -223,8 +223,8 @@ struct WindowOf<Real, LoopScheme> {
   using Mesh = PreparedMesh<Real>;
   using Worker = LoopWorker<Real>;
   static void prepare(const LoopScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
-    out.emplace(scheme.adjacency, place<Real>(scheme.triangles.points().positions, placement),
-                scheme.triangles.kinds());
+    out.emplace(scheme.adjacency, place<Real>(scheme.cut_mesh.points().positions, placement),
+                scheme.cut_mesh.kinds());
   }
 };
 template <class Real>
@@ -232,7 +232,7 @@ struct WindowOf<Real, QuadScheme> {
   using Mesh = PreparedQuads<Real>;
   using Worker = QuadWorker<Real>;
   static void prepare(const QuadScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
-    out.emplace(scheme.quads, place<Real>(scheme.quads.positions, placement));
+    out.emplace(scheme.cut_mesh, place<Real>(scheme.cut_mesh.positions, placement));
   }
 };
 

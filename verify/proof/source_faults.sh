@@ -25,7 +25,7 @@ declare -A sources=(
   [shipped]="verify/proof/bounds/bounds_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp
     fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/rules/quad_limit.cpp"
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"
-  [quadbits]="fast/stream/host/quad_row_stream_test.cpp fast/stream/host/quad_row_stream.cpp fast/stream/gather/rings.cpp
+  [quadbits]="fast/stream/host/quad_row_stream_test.cpp fast/stream/host/row_stream.cpp fast/stream/gather/rings.cpp
     fast/stream/kernel/quad_targets.cpp"
   [parts]="fast/stream/host/frame_test.cpp fast/window/tessellator.cpp fast/plan/crack.cpp"
   [darts]="fast/rules/ring_test.cpp fast/rules/quad_limit.cpp")

@@ -3,9 +3,9 @@
 // double.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fast/mesh/cut_mesh.h"
@@ -50,13 +50,10 @@ class CutGrids {
 
   const PreparedMesh<double>& prepared() const { return prepared_; }
   const Adjacency& adjacency() const { return prepared_.adjacency(); }
-  static Vertex limit(const Rings& rings, std::int32_t v) {
-    return vertex_from(rings.head(v) + CornerBlock::kLimit);
-  }
   GridEdges edges(const Grid& grid, Order order) const { return {adjacency(), grid, order}; }
-  /// put(j, points) for each row, points(i) of it.
+  /// put(j, i, point) for each point.
   template <class Put>
-  void rows(Window& window, const Grid& grid, int depth, Order order, Put&& put) const;
+  void run(Window& window, const Grid& grid, int depth, Order order, Put&& put) const;
 
  private:
   bool touches_face(std::int32_t f) const { return f >= 0 && (touches(3 * f) || touches(3 * f + 1)); }
@@ -78,12 +75,9 @@ class SemiSharpQuads {
   static bool touches(const QuadRings& rings, std::int32_t h) { return rings.touches_semi_sharp(h); }
   const PreparedQuads<double>& prepared() const { return prepared_; }
   const QuadAdjacency& adjacency() const { return prepared_.mesh().adjacency; }
-  static Vertex limit(const QuadRings& rings, std::int32_t v) {
-    return vertex_from(rings.head(v) + QuadCornerBlock::kLimit);
-  }
   static GridEdges edges(std::int32_t quad, Order order) { return {quad, order}; }
   template <class Put>
-  void rows(Window& window, std::int32_t quad, int depth, Order order, Put&& put) const;
+  void run(Window& window, std::int32_t quad, int depth, Order order, Put&& put) const;
 
  private:
   PreparedQuads<double> prepared_;
@@ -95,41 +89,28 @@ class SemiSharpQuads {
 template <class Mesh>
 class AloneEvaluator {
  public:
-  AloneEvaluator(const Mesh& mesh, const typename Mesh::Rings& rings, int depth);
+  using Rings = typename Mesh::Rings;
+
+  AloneEvaluator(const Mesh& mesh, const Rings& rings, int depth);
 
   /// 2^depth + 1 points from the origin of a half-edge on.
   void edge(std::int32_t h, Vertex* out);
 
   /// A grid, row by row, from A or from C, into lane 0 of a target.
   ///   by_kernel(h, out)   evaluates an edge that is not touched
-  template <class Target, class ByKernel>
-  void grid(const typename Mesh::Item& item, Order order, const Target& target, ByKernel&& by_kernel) {
-    const GridEdges on = mesh_.edges(item, order);
-    edges_.resize(GridEdges::kCount * line_.size());
-    for (std::size_t k = 0; k < GridEdges::kCount; ++k)
-      if (shared(on, k)) by_kernel(on.of[k], edges_.data() + k * line_.size());
-    evaluate(item, order, on, first_lane(target));
-  }
+  void grid(const typename Mesh::Item& item, Order order, const QuadTarget<float>& target,
+            const std::function<void(std::int32_t h, Vertex* out)>& by_kernel);
 
  private:
-  static const Target<float>& first_lane(const Target<float>& target) { return target; }
-  static Target<float> first_lane(const QuadTarget<float>& target) {
-    return {target.lane[0], 0, target.row_stride, target.row, target.context, target.row_mask};
-  }
-
-  bool shared(const GridEdges& on, std::size_t k) const {
-    return on.of[k] >= 0 && !mesh_.touches(rings_, on.of[k]);
-  }
-  void evaluate(const typename Mesh::Item& item, Order order, const GridEdges& on,
-                const Target<float>& target);
+  Vertex limit(std::int32_t v) const { return vertex_from(rings_.head(v) + Rings::Block::kLimit); }
 
   const Mesh& mesh_;
-  const typename Mesh::Rings& rings_;
+  const Rings& rings_;
   int depth_;
   typename Mesh::Window window_;
   typename Mesh::Edge edge_;
   std::vector<SurfaceVertex<double>> line_;
-  std::vector<Vertex> edges_;  // 2^depth + 1 points of each of the GridEdges that the kernels make
+  std::vector<Vertex> grid_, edge_points_;
 };
 
 extern template class AloneEvaluator<CutGrids>;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstring>
 
@@ -20,52 +19,55 @@ inline Vertex rounded(const SurfaceVertex<double>& v) {
 }
 
 template <class Mesh>
-AloneEvaluator<Mesh>::AloneEvaluator(const Mesh& mesh, const typename Mesh::Rings& rings, int depth)
+AloneEvaluator<Mesh>::AloneEvaluator(const Mesh& mesh, const Rings& rings, int depth)
     : mesh_(mesh),
       rings_(rings),
       depth_(depth),
       window_(depth, mesh.adjacency().max_valence()),
       edge_(depth, mesh.adjacency().max_valence()),
-      line_((std::size_t{1} << depth) + 1) {}
+      line_((std::size_t{1} << depth) + 1),
+      edge_points_(line_.size()) {}
 
 template <class Mesh>
 void AloneEvaluator<Mesh>::edge(std::int32_t h, Vertex* out) {
   edge_.evaluate(mesh_.prepared(), h, depth_, line_.data());
   std::transform(line_.begin(), line_.end(), out, rounded);
-  out[0] = Mesh::limit(rings_, mesh_.adjacency().origin(h));
-  out[line_.size() - 1] = Mesh::limit(rings_, mesh_.adjacency().target(h));
+  out[0] = limit(mesh_.adjacency().origin(h));
+  out[line_.size() - 1] = limit(mesh_.adjacency().target(h));
 }
 
 template <class Mesh>
-void AloneEvaluator<Mesh>::evaluate(const typename Mesh::Item& item, Order order, const GridEdges& on,
-                                    const Target<float>& target) {
-  const auto& adjacency = mesh_.adjacency();
-  const int size = 1 << depth_;
-  std::array<bool, GridEdges::kCount> by_kernel;
-  for (std::size_t k = 0; k < GridEdges::kCount; ++k) by_kernel[k] = shared(on, k);
-  mesh_.rows(window_, item, depth_, order, [&](int j, auto&& points) {
-    float* const to = target.base + target.row_offset(j);
-    const auto put = [&](int i, const Vertex& v) { std::memcpy(to + 6 * i, &v, sizeof v); };
-    for (int i = 0; i <= size; ++i) put(i, rounded(points(i)));
-    for (std::size_t k = 0; k < GridEdges::kCount; ++k) {
-      if (!by_kernel[k]) continue;
-      const Vertex* const edge = edges_.data() + k * line_.size();
-      if (k == 0 && j == 0)
-        for (int i = 0; i <= size; ++i) put(i, edge[i]);
-      if (k == 1) put(size, edge[j]);
-      if (k == 2 && j == size)
-        for (int i = 0; i <= size; ++i) put(i, edge[size - i]);
-      if (k == 3) put(0, edge[size - j]);
-      if (k == GridEdges::kDiagonal) put(j, edge[on.from_a ? j : size - j]);
+void AloneEvaluator<Mesh>::grid(const typename Mesh::Item& item, Order order, const QuadTarget<float>& target,
+                                const std::function<void(std::int32_t h, Vertex* out)>& by_kernel) {
+  const int last = 1 << depth_;
+  const std::size_t n = line_.size();
+  grid_.assign(n * n, Vertex{});
+  const auto at = [&](int j, int i) -> Vertex& {
+    return grid_[static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i)];
+  };
+  mesh_.run(window_, item, depth_, order,
+            [&](int j, int i, const SurfaceVertex<double>& point) { at(j, i) = rounded(point); });
+  const GridEdges on = mesh_.edges(item, order);
+  for (std::size_t k = GridEdges::kCount; k-- > 0;) {  // the diagonal first: of its ends others are to decide
+    const std::int32_t h = on.of[k];
+    if (h < 0) continue;
+    const auto point = [&](int t) -> Vertex& {
+      const int back = last - t, across = on.from_a ? t : back;
+      const int row[] = {0, t, last, back, across}, column[] = {t, last, back, 0, across};
+      return at(row[k], column[k]);
+    };
+    if (!mesh_.touches(rings_, h)) {
+      by_kernel(h, edge_points_.data());
+      for (int t = 0; t <= last; ++t) point(t) = edge_points_[static_cast<std::size_t>(t)];
     }
-    const int row[] = {0, 0, size, size, 0}, column[] = {0, size, size, 0, 0};
-    for (std::size_t k = 0; k < 4 && (j == 0 || j == size); ++k) {
-      if (on.of[k] < 0) continue;
-      if (row[k] == j) put(column[k], Mesh::limit(rings_, adjacency.origin(on.of[k])));
-      if (row[k + 1] == j) put(column[k + 1], Mesh::limit(rings_, adjacency.target(on.of[k])));
-    }
+    if (k == GridEdges::kDiagonal) continue;
+    point(0) = limit(mesh_.adjacency().origin(h));
+    point(last) = limit(mesh_.adjacency().target(h));
+  }
+  for (int j = 0; j <= last; ++j) {
+    std::memcpy(target.lane[0] + target.row_offset(j), &at(j, 0), n * sizeof(Vertex));
     if (target.row != nullptr) target.row(target.context, j);
-  });
+  }
 }
 
 }  // namespace limitcheck::fast::row_stream

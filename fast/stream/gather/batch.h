@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "fast/mesh/adjacency.h"
-#include "fast/plan/pairing.h"
+#include "fast/plan/grid.h"
 #include "fast/stream/gather/rings.h"
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/output_targets.h"
@@ -46,8 +46,8 @@ struct Corners {
 // Corner blocks, with windows of `width` entries. With an origin of its own a grid or edge wants differences from the
 // corner; they are exact or nearly so.
 template <class N>
-void put_corners(const Adjacency& adjacency, const BasicLoopRings<N>& rings, const Corners& corners,
-                 int width, int depth, int lanes, typename N::Scalar* out) {
+void put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int width, int depth, int lanes,
+                 typename N::Scalar* out) {
   using T = typename N::Scalar;
   const T *head[kMaxLanes] = {}, *window[kMaxLanes] = {};
   const int first = corners.first - depth;
@@ -61,6 +61,7 @@ void put_corners(const Adjacency& adjacency, const BasicLoopRings<N>& rings, con
       rings.placement().has_local_origin(depth) ? out + CornerBlock::kCentre * lanes : nullptr;
   out += CornerBlock::kWindow * lanes;
   if (rings.reaches(depth)) return to_lanes<T>(window, 3 * width, origin, lanes, out);
+  const Adjacency& adjacency = rings.adjacency();
   for (int lane = 0; lane < lanes; ++lane) {  // round a closed ring, often more than once
     const std::int32_t v = adjacency.origin(corners.half_edge[lane]);
     const T* const ring = head[lane] + 3 * (BasicLoopRings<N>::kHeadPoints + BasicLoopRings<N>::kReach);
@@ -92,15 +93,15 @@ void put_ghost(const BasicLoopRings<N>& rings, std::int32_t ac, int corner, int 
 /// grids; the lanes that remain repeat the last grid. A singleton without neighbour gets ghosts for its dummy
 /// partner.
 template <class N>
-void gather(const Adjacency& adjacency, const BasicLoopRings<N>& rings, std::span<const Grid> grids,
-            int depth, int lanes, typename N::Scalar* input, Order order = Order::kFromA) {
+void gather(const BasicLoopRings<N>& rings, std::span<const Grid> grids, int depth, int lanes,
+            typename N::Scalar* input, Order order = Order::kFromA) {
   detail::Corners corners[4] = {{{}, -2}, {{}, -1}, {{}, -1}, {{}, -1}};
   bool ghost[kMaxLanes];
   for (int lane = 0; lane < lanes; ++lane) {
     const Grid& grid = grids[std::min(static_cast<std::size_t>(lane), grids.size() - 1)];
     // A singleton without neighbour may be cut along any edge.
     const std::int32_t ac = 3 * grid.face0 + std::max(grid.edge0, 0), da = Adjacency::prev(ac),
-                       ca = grid.singleton() ? adjacency.twin(ac) : 3 * grid.face1 + grid.edge1;
+                       ca = grid.singleton() ? rings.adjacency().twin(ac) : 3 * grid.face1 + grid.edge1;
     ghost[lane] = ca < 0;
     corners[kA].half_edge[lane] = ac;
     corners[kB].half_edge[lane] = ca < 0 ? da : Adjacency::prev(ca);
@@ -111,7 +112,7 @@ void gather(const Adjacency& adjacency, const BasicLoopRings<N>& rings, std::spa
     return input + (corner ^ static_cast<int>(order)) * corner_block_size(depth) * lanes;
   };
   for (const int k : {kA, kB, kC, kD})
-    detail::put_corners(adjacency, rings, corners[k], window_width(k, depth), depth, lanes, block(k));
+    detail::put_corners(rings, corners[k], window_width(k, depth), depth, lanes, block(k));
   for (int lane = 0; lane < lanes; ++lane) {
     if (ghost[lane])
       detail::put_ghost(rings, corners[kA].half_edge[lane], kB, depth, lanes, block(kB) + lane);
@@ -121,16 +122,16 @@ void gather(const Adjacency& adjacency, const BasicLoopRings<N>& rings, std::spa
 /// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
 /// lanes numbers.
 template <class N>
-void gather_edges(const Adjacency& adjacency, const BasicLoopRings<N>& rings,
-                  std::span<const std::int32_t> half_edges, int depth, int lanes, typename N::Scalar* input) {
+void gather_edges(const BasicLoopRings<N>& rings, std::span<const std::int32_t> half_edges, int depth,
+                  int lanes, typename N::Scalar* input) {
   detail::Corners p{{}, -1}, q{{}, 0};  // Q's ring: from the left neighbour, which comes before P
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
     p.half_edge[lane] = h, q.half_edge[lane] = Adjacency::next(h);
   }
   const int width = edge_window_width(depth);
-  detail::put_corners(adjacency, rings, p, width, depth, lanes, input);
-  detail::put_corners(adjacency, rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
+  detail::put_corners(rings, p, width, depth, lanes, input);
+  detail::put_corners(rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
 }
 
 }  // namespace limitcheck::fast::row_stream

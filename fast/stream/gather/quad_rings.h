@@ -44,6 +44,8 @@ PlacedPoints<T> place(const QuadMesh& mesh);
 template <class T>
 class BasicQuadRings {
  public:
+  using Block = QuadCornerBlock;
+
   explicit BasicQuadRings(const QuadMesh& mesh) : BasicQuadRings(mesh, place<T>(mesh), 0) {}
   /// Points of the caller's, one per vertex of the adjacency.
   ///   tangent   of numbers without lengths: which limit tangent stands for a vertex's normal, 0 or 1

@@ -61,17 +61,20 @@ class BasicLoopRings {
  public:
   using T = typename N::Scalar;
   using Wide = typename NumberTraits<T>::Wide;
+  using Block = CornerBlock;
 
   /// One point per vertex of the adjacency; throws data::ArgumentError otherwise. Of darts only the limits are
-  /// right: their rings do not follow the corner recurrence that the kernel assumes. Keeps a reference to the
-  /// kinds, which must outlive it.
+  /// right: their rings do not follow the corner recurrence that the kernel assumes. Keeps references to the
+  /// adjacency and the kinds, which must outlive it.
   BasicLoopRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds = {});
   BasicLoopRings(const data::ControlMesh& mesh, const Adjacency& adjacency, VertexKinds kinds = {})
       : BasicLoopRings(adjacency, place<T>(mesh), kinds) {}
 
-  /// Other points, for the same adjacency: what depends on the topology alone stays.
+  /// Other points: what depends on the topology alone stays.
   ///   throws   data::ArgumentError: not one point per vertex
-  void move_points(const Adjacency& adjacency, PlacedPoints<T> points);
+  void move_points(PlacedPoints<T> points);
+
+  const Adjacency& adjacency() const { return *adjacency_; }
 
   /// What a grid needs of a vertex, in one piece, three numbers to a point: k0, k1, c, d, limit position, limit
   /// normal (or N::tangent), which are the head of a CornerBlock; then the ring. That goes on at both ends, so
@@ -101,14 +104,15 @@ class BasicLoopRings {
     std::vector<Vec3<Wide>> points, continued;
   };
 
-  void lay_out(const Adjacency& adjacency);
-  void make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind, Scratch& scratch);
+  void lay_out();
+  void make_vertex(std::int32_t v, VertexKind kind, Scratch& scratch);
   static void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, T* to,
                             Scratch& scratch);
   void put_head(std::int32_t v, const Weight& k0, const Weight& k1, const VertexLimit<Wide>& limit,
                 const Vec3<Wide>& normal);
   T* head_of(std::int32_t v) { return numbers_.data() + 3 * static_cast<std::size_t>(heads_[v]); }
 
+  const Adjacency* adjacency_;
   VertexKinds kinds_;
   std::vector<T> numbers_;
   std::vector<std::int32_t> heads_;  // per vertex, in points

@@ -39,13 +39,14 @@ std::size_t canonical_start(const Vec3<W>* ring, std::size_t n, std::size_t step
 
 template <class N>
 BasicLoopRings<N>::BasicLoopRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
-    : kinds_(kinds), weights_(adjacency.max_valence()) {
-  lay_out(adjacency);
-  move_points(adjacency, std::move(points));
+    : adjacency_(&adjacency), kinds_(kinds), weights_(adjacency.max_valence()) {
+  lay_out();
+  move_points(std::move(points));
 }
 
 template <class N>
-void BasicLoopRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> points) {
+void BasicLoopRings<N>::move_points(PlacedPoints<T> points) {
+  const Adjacency& adjacency = *adjacency_;
   if (points.points.size() != static_cast<std::size_t>(adjacency.vertex_count())) {
     throw data::ArgumentError("rings: " + std::to_string(points.points.size()) + " points for " +
                               std::to_string(adjacency.vertex_count()) + " vertices");
@@ -57,13 +58,14 @@ void BasicLoopRings<N>::move_points(const Adjacency& adjacency, PlacedPoints<T> 
       std::move(points.points), std::vector<std::int32_t>(most), std::vector<Vec3<Wide>>(2 * most), {}};
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v) {
     std::copy_n(scratch.placed[v].data(), 3, head_of(v) + CornerBlock::kCentre);
-    if (adjacency.outgoing(v) >= 0) make_vertex(adjacency, v, kinds_[v], scratch);
+    if (adjacency.outgoing(v) >= 0) make_vertex(v, kinds_[v], scratch);
   }
 }
 
 // Where the numbers of each vertex go, and the weights of the valences there are.
 template <class N>
-void BasicLoopRings<N>::lay_out(const Adjacency& adjacency) {
+void BasicLoopRings<N>::lay_out() {
+  const Adjacency& adjacency = *adjacency_;
   heads_.resize(static_cast<std::size_t>(adjacency.vertex_count()));
   corners_.resize(3 * static_cast<std::size_t>(adjacency.face_count()));
   std::int32_t points = 0;
@@ -80,8 +82,8 @@ void BasicLoopRings<N>::lay_out(const Adjacency& adjacency) {
 }
 
 template <class N>
-void BasicLoopRings<N>::make_vertex(const Adjacency& adjacency, std::int32_t v, VertexKind kind,
-                                    Scratch& scratch) {
+void BasicLoopRings<N>::make_vertex(std::int32_t v, VertexKind kind, Scratch& scratch) {
+  const Adjacency& adjacency = *adjacency_;
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
   const std::span<const std::int32_t> fan = adjacency.fan(v);
   const bool open = adjacency.on_boundary(v), held = kind == VertexKind::kHeld;

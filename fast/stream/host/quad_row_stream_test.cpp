@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/quad_row_stream.h"
+#include "fast/stream/row_stream.h"
 
 #include <gtest/gtest.h>
 

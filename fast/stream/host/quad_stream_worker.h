@@ -11,7 +11,7 @@
 
 #include "fast/frame/quad_patch.h"
 #include "fast/rules/masks.h"
-#include "fast/stream/quad_row_stream.h"
+#include "fast/stream/host/stream_worker.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -27,27 +27,17 @@ struct QuadFrameBatch {
   std::span<const QuadPart> items;
 };
 
-/// What all threads read.
-struct QuadStreamFrame {
-  const QuadRowStream& stream;
-  const QuadKernel& few_lanes;  // for single faces
-  const QuadFaces& faces;
-  const CrackPlan& plan;
-  std::span<const QuadPatch> patches;
-  FanCentre centre;
-  bool placed;    // quads that go together have a place each
-  Stores stores;  // there
-};
-
+/// Frame   what all threads read, see QuadStreamFrames
+template <class Frame>
 class QuadStreamWorker {
  public:
   /// make_writer(patch index) gives each patch a writer.
   template <class MakeWriter>
-  void run(const QuadStreamFrame& frame, const QuadFrameBatch& batch, MakeWriter&& make_writer) {
+  void run(const Frame& frame, const QuadFrameBatch& batch, MakeWriter&& make_writer) {
     if (batch.depth < 0) {
       const std::size_t i = batch.items.front().patch;
       auto writer = make_writer(i);
-      return show_repaired<float>(frame.patches[i], frame.faces, frame.plan, frame.centre,
+      return show_repaired<float>(frame.patches[i], frame.faces, frame.plan, frame.options.cracks.centre,
                                   Points{frame, *this}, border_, writer);
     }
     using Writer = decltype(make_writer(std::size_t{}));
@@ -67,24 +57,10 @@ class QuadStreamWorker {
         return frame.stream.put(quads_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
       }
     }
-    struct Context {
-      const QuadFrameBatch& batch;
-      std::vector<Writer>& writers;
-    } context{batch, writers};
-    frame.stream.rows(
-        quads_, batch.depth, workspace_,
-        [](void* opaque, const QuadRowView& view) {
-          if (view.j == 0) return;
-          // Two rows make a strip. They come from the top, from right to left.
-          Context& c = *static_cast<Context*>(opaque);
-          const int last = 1 << view.depth;
-          for (std::size_t lane = 0; lane < view.index.size(); ++lane) {
-            const std::uint32_t i = view.index[lane];
-            c.writers[i].strip(c.batch.items[i].part, view.j - 1,
-                               RowPair<float>{view.before(lane) + last, view.vertices(lane) + last, -1});
-          }
-        },
-        &context, Order::kFromC, Kept::kTwoRows);
+    strips(frame.stream, quads_, batch.depth, workspace_, Order::kFromC,
+           [&](std::size_t i, int row, const RowPair<float>& strip) {
+             writers[i].strip(batch.items[i].part, row, strip);
+           });
   }
 
   /// Bytes of its own, writers aside.
@@ -97,7 +73,7 @@ class QuadStreamWorker {
  private:
   /// The points of a face that is by itself, see show_repaired().
   struct Points {
-    const QuadStreamFrame& frame;
+    const Frame& frame;
     QuadStreamWorker& worker;
 
     Vec3<float> position(std::int32_t v) const { return frame.stream.control(v); }

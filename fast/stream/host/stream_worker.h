@@ -145,31 +145,37 @@ class BorderPoints {
   std::vector<Vertex> points_;
 };
 
+/// take(number, row, strip) for the strip between each two rows of items. Row r of an item's own frame is row r counted
+/// from the corner that the rows come from, and its columns run the other way.
+template <class Stream, class Take>
+void strips(const Stream& stream, std::span<const typename Stream::Item> items, int depth,
+            Workspace& workspace, Order order, Take&& take) {
+  stream.rows(
+      items, depth, workspace,
+      [](void* opaque, const RowView& view) {
+        if (view.j == 0) return;
+        auto& to = *static_cast<std::remove_reference_t<Take>*>(opaque);
+        const int last = 1 << view.depth;
+        for (std::size_t lane = 0; lane < view.size(); ++lane)
+          to(view.number(lane), view.j - 1,
+             RowPair<float>{view.before(lane) + last, view.vertices(lane) + last, -1});
+      },
+      &take, order, Kept::kTwoRows);
+}
+
 /// The centre of a face's fan, once it has been evaluated.
 struct CachedCentre {
   Vertex point;
   bool known = false;
 };
 
-/// What all threads read; of `centres` each writes those of its own faces.
-struct LoopStreamFrame {
-  const Adjacency& adjacency;
-  const RowStream& stream;
-  const Kernel& few_lanes;  // for grids that have to be kept whole
-  const CrackPlan& plan;
-  std::span<const Grid> grids;
-  std::span<const LoopPatch> patches;
-  const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
-  std::span<CachedCentre> centres;     // one per face, or none likewise
-  FanCentre centre;
-  Stores stores;  // of the patches that have a place each
-};
-
+/// Frame   what all threads read, see LoopStreamFrames; of its `centres` each writes those of its own faces
+template <class Frame>
 class LoopStreamWorker {
  public:
   /// make_writer(patch index) gives each patch its writer.
   template <class MakeWriter>
-  void run(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
+  void run(Frame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     using Writer = decltype(make_writer(std::size_t{}));
     if constexpr (requires(Writer writer) { writer.grid(0); }) {
       if (batch.delivery == Delivery::kPlaced) return place(frame, batch, make_writer);
@@ -195,13 +201,13 @@ class LoopStreamWorker {
   std::size_t bytes() const { return workspace_.bytes() + border_.bytes(); }
 
  private:
-  void collect(const LoopStreamFrame& frame, const LoopBatch& batch) {
+  void collect(const Frame& frame, const LoopBatch& batch) {
     grids_.clear();
-    for (const std::size_t i : batch.items) grids_.push_back(frame.grids[i]);
+    for (const std::size_t i : batch.items) grids_.push_back(frame.pairing.grids[i]);
   }
 
   template <class MakeWriter>
-  void place(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
+  void place(const Frame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     collect(frame, batch);
     std::array<Vertex*, kMaxLanes> places;
     for (std::size_t lane = 0; lane < batch.items.size(); ++lane)
@@ -209,40 +215,18 @@ class LoopStreamWorker {
     frame.stream.put(grids_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
   }
 
-  // Two rows make a strip. Frames count columns from D's side, the kernel from the other.
   template <class Writer>
-  void rows(const LoopStreamFrame& frame, const LoopBatch& batch, std::vector<Writer>& writers) {
+  void rows(const Frame& frame, const LoopBatch& batch, std::vector<Writer>& writers) {
     collect(frame, batch);
-    struct Context {
-      const LoopStreamFrame& frame;
-      const LoopBatch& batch;
-      std::vector<Writer>& writers;
-    } context{frame, batch, writers};
-    frame.stream.rows(
-        grids_, batch.depth, workspace_,
-        [](void* opaque, const RowView& view) {
-          if (view.j == 0) return;
-          Context& c = *static_cast<Context*>(opaque);
-          for (std::size_t lane = 0; lane < view.size(); ++lane) {
-            const std::size_t i = view.number(lane);
-            take_rows(c.frame.patches[c.batch.items[i]], view, lane, c.batch.delivery, c.writers[i]);
-          }
-        },
-        &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA, Kept::kTwoRows);
+    const bool from_c = batch.delivery == Delivery::kRowsFromC;
+    strips(frame.stream, grids_, batch.depth, workspace_, from_c ? Order::kFromC : Order::kFromA,
+           [&](std::size_t i, int row, const RowPair<float>& strip) {
+             const LoopPatch& patch = frame.patches[batch.items[i]];
+             writers[i].strip(patch.full() ? LoopPatch::kWhole : from_c ? 0 : 1, row, strip);
+           });
   }
 
-  // Row r of either half's own frame is row r counted from the corner that the rows come from, and its
-  // columns run the other way.
-  template <class Writer>
-  static void take_rows(const LoopPatch& patch, const RowView& view, std::size_t lane, Delivery delivery,
-                        Writer& writer) {
-    const int last = 1 << view.depth;
-    const RowPair<float> strip{view.before(lane) + last, view.vertices(lane) + last, -1};
-    const int part = patch.full() ? LoopPatch::kWhole : delivery == Delivery::kRowsFromC ? 0 : 1;
-    writer.strip(part, view.j - 1, strip);
-  }
-
-  void evaluate_whole(const LoopStreamFrame& frame, const LoopBatch& batch) {
+  void evaluate_whole(const Frame& frame, const LoopBatch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
     // The grids lie behind what the kernel needs of the same memory, so that frames need no more than rows.
@@ -273,7 +257,7 @@ class LoopStreamWorker {
   }
 
   template <class Writer>
-  void repairs(const LoopStreamFrame& frame, const LoopBatch& batch, std::size_t lane, Writer& writer) {
+  void repairs(Frame& frame, const LoopBatch& batch, std::size_t lane, Writer& writer) {
     const LoopPatch& patch = frame.patches[batch.items[lane]];
     for (int s = 0; s < 2; ++s) {
       const Half& half = patch.half[s];
@@ -282,13 +266,12 @@ class LoopStreamWorker {
     }
   }
 
-  const Vertex& centre(const LoopStreamFrame& frame, std::int32_t face) {
+  const Vertex& centre(Frame& frame, std::int32_t face) {
     CachedCentre& cached = frame.centres[face];
     if (!cached.known) {
       if (!centre_) centre_.emplace(frame.adjacency.max_valence());
-      cached = {
-          placed(centre_->evaluate(*frame.control, face, frame.centre), frame.stream.rings().placement()),
-          true};
+      const Vertex at = centre_->evaluate(*frame.control, face, frame.options.cracks.centre);
+      cached = {placed(at, frame.stream.rings().placement()), true};
     }
     return cached.point;
   }

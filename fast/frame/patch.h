@@ -12,7 +12,7 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/faces.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 
 namespace limitcheck::fast {
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "fast/frame/draw_writer.h"
-#include "fast/frame/patch_indices.h"
 #include "fast/frame/patch_store.h"
 
 namespace limitcheck::fast {

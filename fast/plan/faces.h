@@ -10,7 +10,7 @@
 
 #include "data/faces.h"
 #include "fast/mesh/cut_mesh.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 
 namespace limitcheck::fast {
 

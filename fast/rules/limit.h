@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 
 namespace limitcheck::fast {
 

@@ -12,7 +12,7 @@
 #include "fast/frame/stores.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/cut_mesh.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/gather/quad_rings.h"
 #include "fast/stream/gather/rings.h"

@@ -17,7 +17,7 @@
 #include "fast/frame/scheme_frames.h"
 #include "fast/mesh/vec3.h"
 #include "fast/window/crack_edge.h"
-#include "fast/window/quad_edge.h"
+#include "fast/window/quad_rows.h"
 #include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"
 #include "fast/window/triangle_lattice.h"

@@ -14,7 +14,7 @@
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/gather/quad_rings.h"
 #include "fast/window/crack_edge.h"
-#include "fast/window/quad_edge.h"
+#include "fast/window/quad_rows.h"
 #include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"
 

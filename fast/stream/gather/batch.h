@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "fast/mesh/adjacency.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 #include "fast/stream/gather/rings.h"
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/output_targets.h"

@@ -11,7 +11,7 @@
 
 #include "data/control_mesh.h"
 #include "fast/mesh/adjacency.h"
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/vertex_limit.h"
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/number.h"

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "fast/frame/scheme_frames.h"
-#include "fast/stream/host/quad_stream_worker.h"
 #include "fast/stream/host/stream_worker.h"
 #include "fast/stream/kernel/output_targets.h"
 

@@ -17,7 +17,7 @@
 #include "fast/stream/gather/quad_batch.h"
 #include "fast/stream/gather/quad_rings_impl.h"
 #include "fast/stream/kernel/kernel.h"
-#include "fast/window/quad_edge.h"
+#include "fast/window/quad_rows.h"
 #include "fast/window/quad_window.h"
 #include "verify/proof/maps/kernel_runs.h"
 #include "verify/proof/topologies/proof_row.h"

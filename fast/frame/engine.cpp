@@ -47,7 +47,7 @@ FrameStats SchemeFrames<Real, Scheme>::plan_frame(std::span<const std::int32_t> 
   stats.seconds_pairing = seconds_since(start);
 
   start = Clock::now();
-  plan = this->plan_edges(pairing.depth, options.cracks);
+  plan = plan_cracks(faces, pairing.depth, options.cracks, this->rules);
   patches.clear();
   max_depth = 0;
   for (const Grid& grid : pairing.grids) {

@@ -115,9 +115,6 @@ struct LoopScheme {
   PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const {
     return pair_faces(adjacency, depth, rules, keep);
   }
-  CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
-    return plan_cracks(cut_mesh, depth, options, rules);
-  }
   void make(std::optional<Heuristics>& heuristics, int max_depth) const {
     heuristics.emplace(cut_mesh.points(), adjacency, max_depth, cut_mesh.kinds());
   }
@@ -125,7 +122,7 @@ struct LoopScheme {
   PrintedRules rules;
   TriangleMesh cut_mesh;
   const Adjacency& adjacency = cut_mesh.adjacency();
-  LoopFaces faces{&adjacency};
+  LoopFaces faces{&adjacency, &cut_mesh};
 };
 
 /// Of Catmull-Clark's: a grid for each quad. [C21]
@@ -143,13 +140,11 @@ struct QuadScheme {
 
   /// One grid for each face that is displayed.
   PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const;
-  CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
-    return plan_cracks(faces, depth, options, PrintedRules{});
-  }
   void make(std::optional<Heuristics>& heuristics, int max_depth) const {
     heuristics.emplace(faces, semi_sharp, max_depth);
   }
 
+  static constexpr PrintedRules rules{};
   QuadMesh cut_mesh;
   QuadFaces faces;
   SemiSharp semi_sharp;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -58,19 +59,14 @@ class SemiSharp {
   std::vector<std::vector<StarTags>> steps_;
 };
 
-/// The unit normal of a vertex: du x dv of its limit, unless they vanish or are parallel, as vertex_normal()
-/// of limit.h says; then that of substitute_star_normal(), and `degenerate` becomes true. [D12]
+/// The unit normal of a vertex, see normal_or_substitute(), with substitute_star_normal().
 ///   own   is subdivided then
 template <class W>
 Vec3<W> star_normal(const LimitFrame<W>& limit, OwnQuadStar<W>& own, bool& degenerate) {
-  using std::sqrt;
-  const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
-  const Vec3<W> normal = cross(limit.du, limit.dv);
-  const W size = length(normal), a = length(limit.du), b = length(limit.dv);
-  W reach(0);
-  for (int i = 0; i < own.star.size(); ++i) reach = reach + length(own.star.ring[i] - own.star.centre);
-  degenerate = !(size > W(kParallel<double>) * a * b) || !(std::min(a, b) > W(kVanishing) * reach);
-  return degenerate ? substitute_star_normal(own, kParallel<double>) : W(1) / size * normal;
+  const std::span<const Vec3<W>> ring(own.star.ring, static_cast<std::size_t>(own.star.size()));
+  return normal_or_substitute(limit, own.star.centre, ring, degenerate,
+                              std::numeric_limits<double>::infinity(),
+                              [&] { return substitute_star_normal(own, kParallel<double>); });
 }
 
 /// The sums of e_i - c and f_i - c over a closed ring.

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "fast/mesh/cut_mesh.h"
+#include "fast/rules/limit.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"
 
@@ -216,7 +216,6 @@ class OwnQuadStar {
 /// area_normal() of limit.h. Rings of four are added in opposite pairs.
 template <class W>
 Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
-  using std::sqrt;
   const Vec3<W>& v = star.centre;
   const auto face = [&](int i) { return cross(star.face(i) - v, star.edge(i + 1) - star.edge(i)); };
   Vec3<W> sum{};
@@ -227,21 +226,14 @@ Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
   }
   W reach(0);
   for (int i = 0; i < star.size(); ++i) reach = std::max(reach, dot(star.ring[i] - v, star.ring[i] - v));
-  const W size = sqrt(dot(sum, sum));
-  return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
+  return unit_or_lost(sum, reach, tolerance);
 }
 
-/// The unit normal where the tangents vanish or are parallel, as substitute_normal() of limit.h:
-/// that of the faces after one to three steps, else before them, else (0, 0, 1). [D12]
+/// That of a star, see normal_after_steps(), which subdivides it.
 template <class W>
 Vec3<W> substitute_star_normal(OwnQuadStar<W>& own, double tolerance) {
-  const Vec3<W> control = star_area_normal(own.star, tolerance);
-  for (int step = 0; step < 3; ++step) {
-    own.subdivide();
-    const Vec3<W> normal = star_area_normal(own.star, tolerance);
-    if (normal != Vec3<W>{}) return normal;
-  }
-  return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
+  return normal_after_steps<W>([&] { return star_area_normal(own.star, tolerance); },
+                               [&] { own.subdivide(); });
 }
 
 }  // namespace limitcheck::fast

@@ -41,14 +41,6 @@ void Ring::subdivide() {
   if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_, kind_);
 }
 
-Point3 Ring::limit_position() const {
-  return limit_vertex().position;
-}
-
-Point3 Ring::limit_normal(bool* degenerate) const {
-  return limit_vertex(degenerate).normal;
-}
-
 SurfaceVertex<double> Ring::limit_vertex(bool* degenerate, double farthest) const {
   bool without_tangents = true;
   SurfaceVertex<double> vertex{centre_, {0, 0, 1}};

@@ -110,17 +110,13 @@ class DrawWriter {
     const FaceInRepair<Faces> face{faces_, plan_, shown.face};
     begin(DrawMode::kTriangles, Kind::kStitched, face.face);
     for (int side = 0; side < face.sides(); ++side) {
-      const auto one = [&](std::int64_t index, bool is_inner) {
-        const int t = static_cast<int>(index);
-        if (is_inner) return put_inner(patch_.beside(faces_, s, side, t), grid);
+      const auto one = [&](StitchPoint p) {
+        const int t = static_cast<int>(p.t);
+        if (p.inner) return put_inner(patch_.beside(faces_, s, side, t), grid);
         put_at(border[side][t], [&] { return face.on_side(side, t); });
       };
       face.stitch(shown.cells, side,
-                  [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
-                    one(a, ai);
-                    one(b, bi);
-                    one(c, ci);
-                  });
+                  [&](StitchPoint a, StitchPoint b, StitchPoint c) { one(a), one(b), one(c); });
     }
     end();
   }

@@ -58,14 +58,13 @@ std::int32_t add_ring(const FaceInRepair<Faces>& face, int depth, std::int32_t b
                       std::vector<std::uint32_t>& out) {
   std::int64_t first = 0;
   for (int side = 0; side < face.sides(); ++side) {
-    const auto point = [&](std::int64_t t, bool is_inner) {
-      if (is_inner) return inner(side, static_cast<int>(t));
-      return static_cast<std::uint32_t>(border + (first + t) % face.border());
+    const auto point = [&](StitchPoint p) {
+      if (p.inner) return inner(side, static_cast<int>(p.t));
+      return static_cast<std::uint32_t>(border + (first + p.t) % face.border());
     };
-    face.stitch(1 << depth, side,
-                [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
-                  out.insert(out.end(), {point(a, ai), point(b, bi), point(c, ci)});
-                });
+    face.stitch(1 << depth, side, [&](StitchPoint a, StitchPoint b, StitchPoint c) {
+      out.insert(out.end(), {point(a), point(b), point(c)});
+    });
     first += face.points(side);
   }
   return static_cast<std::int32_t>(face.ring_triangles(std::int64_t{1} << depth));

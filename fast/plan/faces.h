@@ -3,7 +3,6 @@
 // Catmull-Clark's consists of.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

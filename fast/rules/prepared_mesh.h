@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,15 +36,11 @@ class PreparedMesh {
   using Wide = typename NumberTraits<N>::Wide;
 
   /// One position per vertex of the adjacency. Keeps a reference to the kinds, too.
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {})
+  ///   with_limits   otherwise limit() is not to be asked
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {},
+               bool with_limits = true)
       : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
-    prepare<true>();
-  }
-  /// The same, but limit() is not to be asked.
-  struct WithoutLimits {};
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds, WithoutLimits)
-      : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
-    prepare<false>();
+    prepare(with_limits);
   }
 
   PreparedMesh(Adjacency&&, std::vector<Vec3<N>>, VertexKinds = {}) = delete;
@@ -61,8 +56,7 @@ class PreparedMesh {
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
-  template <bool with_limits>
-  void prepare() {
+  void prepare(bool with_limits) {
     const Adjacency& mesh = adjacency();
     std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(mesh.max_valence()) + 1);
     std::vector<bool> known(by_valence.size());
@@ -84,8 +78,7 @@ class PreparedMesh {
         weights_[v] = by_valence[neighbours];
       }
       table.make(n, open);
-      if constexpr (with_limits)
-        limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
+      if (with_limits) limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
     }
   }
 

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -206,17 +205,27 @@ void subdivide_corner(const QuadCorner<N, Vertex>& old, QuadCorner<N, Vertex>& o
 
 namespace detail {
 
-/// The normal that takes the place of one that is lost, for a star of these points: closed, or open if there
-/// is an odd number. Linear numbers have no sizes, and no need of it.
+/// The star of a point: closed, or open if there is an odd number of points around it.
+template <class N, std::size_t kPoints>
+void fill_star(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring,
+               OwnQuadStar<typename NumberTraits<N>::Wide>& own) {
+  own.resize(static_cast<int>(kPoints / 2), kPoints % 2 == 1, VertexKind::kPlain);
+  own.star.centre = widen<N>(v);
+  for (std::size_t i = 0; i < kPoints; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+}
+template <class N>
+std::array<const Vec3<N>*, 8> ring_of(const QuadNeighbours<N>& r) {
+  return {&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se};
+}
+
+/// The normal that takes the place of one that is lost, for such a star. Linear numbers have no sizes, and no need of it.
 template <class N, class Surface, std::size_t kPoints>
 WideVec3<N> substitute_normal_of(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring) {
   if constexpr (requires { Surface::kLinear; }) {
     return {};
   } else {
     OwnQuadStar<typename NumberTraits<N>::Wide> own;
-    own.resize(static_cast<int>(kPoints / 2), kPoints % 2 == 1, VertexKind::kPlain);
-    own.star.centre = widen<N>(v);
-    for (std::size_t i = 0; i < kPoints; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+    fill_star(v, ring, own);
     return substitute_star_normal(own, kParallel<N>);
   }
 }
@@ -229,11 +238,7 @@ typename Surface::Vertex quad_vertex_limit(const Vec3<N>& v, const QuadNeighbour
                                            std::int64_t& zero_normals) {
   return Surface::vertex(
       regular_quad_limit(v, r),
-      [&] {
-        return detail::substitute_normal_of<N, Surface>(
-            v, std::array<const Vec3<N>*, 8>{&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se});
-      },
-      zero_normals);
+      [&] { return detail::substitute_normal_of<N, Surface>(v, detail::ring_of(r)); }, zero_normals);
 }
 
 /// On a boundary, ring e, ne, n, nw, w counter-clockwise.
@@ -257,10 +262,7 @@ typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours
                                           data::Creasing creasing, std::int64_t& zero_normals) {
   using Wide = typename NumberTraits<N>::Wide;
   OwnQuadStar<Wide> own;
-  own.resize(4, false, VertexKind::kPlain);
-  own.star.centre = widen<N>(v);
-  const Vec3<N>* ring[] = {&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se};
-  for (std::size_t i = 0; i < 8; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+  detail::fill_star(v, detail::ring_of(r), own);
   for (const StarTags& tags : straight_steps(before, after, creasing)) own.subdivide(&tags);
   const auto at = [&](int i) -> const Vec3<Wide>& { return own.star.ring[i]; };
   const LimitFrame<Wide> limit = regular_quad_limit(

@@ -6,10 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
-#include "data/control_mesh.h"
 #include "fast/mesh/cut_mesh.h"
 
 #include "fast/stream/gather/rings.h"

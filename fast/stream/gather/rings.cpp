@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "fast/mesh/vec3.h"
 #include "fast/stream/gather/quad_rings_impl.h"

@@ -142,10 +142,8 @@ struct LoopStreamFrames final
 
   void prepare() override {
     if (plan.fans > 0 && !control) {
-      if (options.cracks.centre == FanCentre::kFlatLimit)
-        control.emplace(adjacency, control_points(), cut_mesh.kinds());
-      else
-        control.emplace(adjacency, control_points(), cut_mesh.kinds(), PreparedMesh<float>::WithoutLimits());
+      const bool limits = options.cracks.centre == FanCentre::kFlatLimit;
+      control.emplace(adjacency, control_points(), cut_mesh.kinds(), limits);
     }
     if (plan.fans > 0) centres.resize(static_cast<std::size_t>(adjacency.face_count()));
     StreamFrames::prepare();

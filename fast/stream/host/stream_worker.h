@@ -15,7 +15,6 @@
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/patch.h"
 #include "fast/frame/quad_patch.h"
-#include "fast/rules/masks.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/row_stream.h"
 

@@ -9,7 +9,6 @@
 #endif
 
 #include <array>
-#include <cstddef>
 
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/quad_rows-inl.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The index patterns of patches, each made once. Brings a PatchMesh from one frame of an engine to the next: where the
-// patches of a mesh lie in a buffer of vertices, what they showed when they were written there, and how their points get
-// there.
+// The index patterns of patches, each made once. Brings a PatchMesh from one frame of an engine to the next:
+// where the patches of a mesh lie in a buffer of vertices, what they showed when they were written there, and
+// how their points get there.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,6 @@
 #include "fast/frame/index_writer.h"
 #include "fast/frame/patch.h"
 #include "fast/frame/patch_store.h"
-#include "fast/frame/patch_writer.h"
 #include "fast/frame/sink.h"
 #include "fast/frame/stores.h"
 #include "fast/mesh/cut_mesh.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is sharp, and the control mesh as the kernels read it: triangles (Loop) or quads (Catmull-Clark), with infinitely
-// sharp edges cut.
+// What is sharp, and the control mesh as the kernels read it: triangles (Loop) or quads (Catmull-Clark), with
+// infinitely sharp edges cut.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A place on a control face; grids of points over two neighbouring faces; and the partition of the faces into such pairs.
-// [mueller2000, 4.2; C35-C42]
+// A place on a control face; grids of points over two neighbouring faces; and the partition of the faces into
+// such pairs. [mueller2000, 4.2; C35-C42]
 #pragma once
 
 #include <cstdint>

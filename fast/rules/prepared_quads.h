@@ -218,7 +218,8 @@ std::array<const Vec3<N>*, 8> ring_of(const QuadNeighbours<N>& r) {
   return {&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se};
 }
 
-/// The normal that takes the place of one that is lost, for such a star. Linear numbers have no sizes, and no need of it.
+/// The normal that takes the place of one that is lost, for such a star. Linear numbers have no sizes, and no
+/// need of it.
 template <class N, class Surface, std::size_t kPoints>
 WideVec3<N> substitute_normal_of(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring) {
   if constexpr (requires { Surface::kLinear; }) {

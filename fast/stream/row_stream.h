@@ -14,7 +14,6 @@
 #include "fast/mesh/cut_mesh.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/gather/batch.h"
-#include "fast/stream/gather/quad_rings.h"
 #include "fast/stream/gather/rings.h"
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/targets.h"

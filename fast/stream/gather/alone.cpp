@@ -3,7 +3,6 @@
 
 #include <cstddef>
 
-#include "fast/stream/gather/alone_impl.h"
 #include "fast/window/triangle_lattice.h"
 
 namespace limitcheck::fast::row_stream {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/gather/alone_impl.h"
+#include "fast/stream/gather/alone.h"
 
 namespace limitcheck::fast::row_stream {
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "fast/mesh/vec3.h"
-#include "fast/stream/gather/quad_rings_impl.h"
 #include "fast/stream/gather/rings_impl.h"
 
 namespace limitcheck::fast::row_stream {

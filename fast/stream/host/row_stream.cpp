@@ -11,7 +11,7 @@
 
 #include "data/error.h"
 #include "fast/stream/gather/alone.h"
-#include "fast/stream/gather/quad_batch.h"
+#include "fast/stream/gather/batch.h"
 #include "fast/stream/kernel/output_targets.h"
 
 namespace limitcheck::fast::row_stream {

@@ -276,7 +276,7 @@ class Runs {
  private:
   const At& at_;
   Stores stores_;
-  std::array<LineStream, kMaxLanes> lines_;
+  std::array<LineStream, kMaxLanes> lines_ = {};
 };
 
 template <class Scheme>

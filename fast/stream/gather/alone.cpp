@@ -29,6 +29,7 @@ void CutGrids::run(Window& window, const Grid& grid, int depth, Order order, Put
   const bool from_a = order == Order::kFromA;
   const int size = 1 << depth;
   if (grid.edge0 < 0) {  // a face alone: its points above the diagonal; those below it are never shown
+    for (int k = 0; k < (size + 1) * (size + 1); ++k) put(k / (size + 1), k % (size + 1), Double{});
     return TriangleLattice<double>(depth).run(
         prepared_, grid.face0, depth, [&](int row, const Double* strip) {
           for (int q = 0; q < 2 * (size - row) + 1; ++q) {
@@ -40,9 +41,8 @@ void CutGrids::run(Window& window, const Grid& grid, int depth, Order order, Put
   // The window's rows come from its upper right corner, from right to left.
   const std::int32_t ac = 3 * grid.face0 + grid.edge0;
   window.run(prepared_, from_a ? adjacency().twin(ac) : ac, depth, [&](int row, const Double* strip) {
-    for (int q = row == 0 ? 0 : 1; q < 2 * size + 2;
-         q += row == 0 ? 1 : 2)  // those of the strip before are there
-      put(row + q % 2, size - q / 2, strip[q]);
+    const int step = row == 0 ? 1 : 2;  // those of the strip before are there
+    for (int q = step - 1; q < 2 * size + 2; q += step) put(row + q % 2, size - q / 2, strip[q]);
   });
 }
 

@@ -146,7 +146,7 @@ void AloneEvaluator<Mesh>::grid(const typename Mesh::Item& item, Order order, co
                                 const std::function<void(std::int32_t h, Vertex* out)>& by_kernel) {
   const int last = 1 << depth_;
   const std::size_t n = line_.size();
-  grid_.assign(n * n, Vertex{});
+  grid_.resize(n * n);
   const auto at = [&](int j, int i) -> Vertex& {
     return grid_[static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i)];
   };

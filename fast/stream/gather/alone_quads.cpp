@@ -17,7 +17,8 @@ void SemiSharpQuads::run(Window& window, std::int32_t quad, int depth, Order ord
   const int size = 1 << depth;
   window.run_from(prepared_, 4 * quad + (static_cast<int>(order) + 2) % 4, depth,
                   [&](int row, const SurfaceVertex<double>* strip) {
-                    for (int q = row == 0 ? 0 : 1; q < 2 * size + 2; q += row == 0 ? 1 : 2)
+                    const int step = row == 0 ? 1 : 2;
+                    for (int q = step - 1; q < 2 * size + 2; q += step)
                       put(row + q % 2, size - q / 2, strip[q]);
                   });
 }

@@ -152,11 +152,7 @@ void PatchStore::clear() {
 void PatchStore::place(std::size_t faces, bool reuse) {
   ++frame_;
   places.assign(list.size(), {});
-  if (!reuse || kept_.size() != faces) {
-    clear();
-    kept_.resize(faces);
-    return place_all_anew();
-  }
+  if (!reuse || kept_.size() != faces) return place_all_anew(faces);
   std::int64_t shown = 0;
   // What is as it was stays; then what has changed gives its place back, so that others find it.
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -177,13 +173,12 @@ void PatchStore::place(std::size_t faces, bool reuse) {
     places[i].first = take(patch.size);
     kept_[patch.key.grid.face0] = {patch.key, places[i].first, patch.size, frame_};
   }
-  if (end <= 3 * shown + PatchMesh<float>::kSlack) return;
-  clear();
-  kept_.resize(faces);
-  place_all_anew();
+  if (end > 3 * shown + PatchMesh<float>::kSlack) place_all_anew(faces);
 }
 
-void PatchStore::place_all_anew() {
+void PatchStore::place_all_anew(std::size_t faces) {
+  clear();
+  kept_.resize(faces);
   for (std::size_t i = 0; i < list.size(); ++i) {
     places[i] = {end, true};
     kept_[list[i].key.grid.face0] = {list[i].key, end, list[i].size, frame_};

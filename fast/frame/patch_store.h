@@ -102,7 +102,7 @@ struct PatchStore {
     std::uint32_t shown = 0;  // the last frame that did
   };
 
-  void place_all_anew();
+  void place_all_anew(std::size_t faces);
   std::int64_t take(std::int32_t size);
   void give_back(Kept& kept);
   void evict(std::int64_t most);

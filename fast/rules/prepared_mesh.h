@@ -132,43 +132,25 @@ CornerRing<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surf
                                                       bool from_last_slot, Vec3<N>* storage) {
   const Adjacency& adjacency = mesh.adjacency();
   const std::int32_t v = adjacency.origin(h);
-  const std::int32_t first = adjacency.outgoing(v);
+  const std::span<const std::int32_t> fan = adjacency.fan(v);
+  const int faces = static_cast<int>(fan.size());
   CornerRing<N, typename Surface::Vertex> corner;
   corner.ring = storage;
   corner.n = adjacency.valence(v);
   corner.kind = mesh.kind(v);
   corner.weights = mesh.weights(v);
   corner.limit = &mesh.limit(v);
-  int slot = from_last_slot ? corner.n - 1 : 0;
-  if (!adjacency.on_boundary(v)) {
-    const std::span<const std::int32_t> fan = adjacency.fan(v);
-    int at = 0;
-    while (fan[at] != h) ++at;
-    corner.start = slot + corner.n - at - (slot < at ? 0 : corner.n);
-    for (int i = 0; i < corner.n; ++i) {
-      storage[slot] = mesh.position(adjacency.target(fan[at]));
-      slot = slot + 1 == corner.n ? 0 : slot + 1;
-      at = at + 1 == corner.n ? 0 : at + 1;
-    }
-    return corner;
-  }
-  std::int32_t walk = h;
+  int slot = from_last_slot ? corner.n - 1 : 0, at = 0;
+  while (fan[at] != h) ++at;
+  corner.start = slot + corner.n - at - (slot < at ? 0 : corner.n);
+  // The far neighbour of the last face before the boundary closes an open ring.
+  const bool open = corner.n > faces;
+  if (open) corner.gap = corner.start > 0 ? corner.start - 1 : corner.n - 1;
+  const std::int32_t last = open ? adjacency.origin(Adjacency::prev(fan[faces - 1])) : -1;
   for (int i = 0; i < corner.n; ++i) {
-    const int next = slot + 1 == corner.n ? 0 : slot + 1;
-    storage[slot] = mesh.position(adjacency.target(walk));
-    if (walk == first) corner.start = slot;
-    slot = next;
-    const std::int32_t after = adjacency.rotate(walk);
-    if (after < 0) {
-      // The last face before the boundary: its far neighbour closes the open ring, which then begins anew.
-      storage[next] = mesh.position(adjacency.origin(Adjacency::prev(walk)));
-      corner.gap = next;
-      slot = next + 1 == corner.n ? 0 : next + 1;
-      walk = first;
-      ++i;
-    } else {
-      walk = after;
-    }
+    storage[slot] = mesh.position(at < faces ? adjacency.target(fan[at]) : last);
+    slot = slot + 1 == corner.n ? 0 : slot + 1;
+    at = at + 1 == corner.n ? 0 : at + 1;
   }
   return corner;
 }

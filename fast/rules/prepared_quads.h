@@ -160,21 +160,17 @@ QuadCorner<N, typename Surface::Vertex> gather_corner(const PreparedQuads<N, Sur
                                                       Vec3<N>* storage) {
   const QuadAdjacency& adjacency = mesh.mesh().adjacency;
   const std::int32_t v = adjacency.origin(h);
-  const auto fan = adjacency.fan(v);
   QuadCorner<N, typename Surface::Vertex> corner;
-  corner.star = {mesh.position(v), storage, static_cast<int>(fan.size()), adjacency.on_boundary(v),
-                 mesh.mesh().kind(v)};
+  corner.star = {mesh.position(v), storage, static_cast<int>(adjacency.fan(v).size()),
+                 adjacency.on_boundary(v), mesh.mesh().kind(v)};
   corner.sector = mesh.slot(h);
   corner.limit = &mesh.limit(v);
   corner.tags = mesh.semi_sharp().steps(v);
   corner.by_sums = !corner.star.open && corner.star.kind == VertexKind::kPlain && corner.tags.empty();
   corner.centre = widen<N>(corner.star.centre);
   corner.sums = {mesh.sums(v).edges, mesh.sums(v).faces};
-  for (const std::int32_t k : fan) {
-    *storage++ = mesh.position(adjacency.target(k));
-    *storage++ = mesh.position(adjacency.target(QuadAdjacency::next(k)));
-  }
-  if (corner.star.open) *storage = mesh.position(adjacency.origin(QuadAdjacency::prev(fan.back())));
+  gather_ring(
+      adjacency, v, [&](std::int32_t w) -> const Vec3<N>& { return mesh.position(w); }, storage);
   return corner;
 }
 

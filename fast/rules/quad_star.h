@@ -166,6 +166,17 @@ Vec3<N> subdivide_centre(const QuadStar<N>& star, const StarTags* tags, const Qu
   return tags->held > 0 ? blend(tags->held, star.centre, point) : point;
 }
 
+/// The points around a vertex, from adjacency.outgoing(v) on.
+template <class Position, class N>
+void gather_ring(const QuadAdjacency& adjacency, std::int32_t v, Position&& position, Vec3<N>* out) {
+  const auto fan = adjacency.fan(v);
+  for (const std::int32_t h : fan) {
+    *out++ = position(adjacency.target(h));
+    *out++ = position(adjacency.target(QuadAdjacency::next(h)));
+  }
+  if (adjacency.on_boundary(v)) *out = position(adjacency.origin(QuadAdjacency::prev(fan.back())));
+}
+
 /// A star with memory of its own, in a field W: what is done once per control vertex.
 template <class W>
 class OwnQuadStar {
@@ -181,15 +192,15 @@ class OwnQuadStar {
   template <class Position>
   void gather(const QuadMesh& mesh, std::int32_t v, Position&& position) {
     const QuadAdjacency& adjacency = mesh.adjacency;
-    const auto fan = adjacency.fan(v);
-    resize(static_cast<int>(fan.size()), adjacency.on_boundary(v), mesh.kind(v));
+    resize(static_cast<int>(adjacency.fan(v).size()), adjacency.on_boundary(v), mesh.kind(v));
     star.centre = position(v);
-    Vec3<W>* out = star.ring;
-    for (const std::int32_t h : fan) {
-      *out++ = position(adjacency.target(h));
-      *out++ = position(adjacency.target(QuadAdjacency::next(h)));
-    }
-    if (star.open) *out = position(adjacency.origin(QuadAdjacency::prev(fan.back())));
+    gather_ring(adjacency, v, position, star.ring);
+  }
+  /// Another star as it is now.
+  void copy(const OwnQuadStar& other) {
+    resize(other.star.faces, other.star.open, other.star.kind);
+    star.centre = other.star.centre;
+    std::copy_n(other.star.ring, star.size(), star.ring);
   }
   void resize(int faces, bool open, VertexKind kind) {
     star = {{}, nullptr, faces, open, kind};

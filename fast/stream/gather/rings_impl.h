@@ -322,9 +322,7 @@ template <class T>
 void BasicQuadRings<T>::make_dart(std::int32_t v, const OwnQuadStar<Wide>& own) {
   using S = typename NumberTraits<Wide>::Scalar;
   OwnQuadStar<Wide> star;
-  star.resize(own.star.faces, own.star.open, own.star.kind);
-  star.star.centre = own.star.centre;
-  std::copy_n(own.star.ring, own.star.size(), star.star.ring);
+  star.copy(own);
   if (darts_.empty()) darts_.resize(rings_.size());
   darts_[v] = std::make_unique<DartMoves>();
   S scale(1);

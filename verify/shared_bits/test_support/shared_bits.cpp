@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "fast/frame/patch.h"
@@ -149,7 +150,7 @@ void add_pairs(const Rewriting& mesh, int depth, const rs::Kernel& kernel, Form 
   rs::Workspace workspace;
   Sink sink{mesh, bits};
   if (form == Form::kRows) {
-    std::pair<Sink*, const std::vector<fast::Grid>*> context{&sink, &pairs};
+    std::pair<Sink*, const std::vector<fast::Grid>*> sink_and_pairs{&sink, &pairs};
     stream.rows(
         pairs, depth, workspace,
         [](void* context, const rs::RowView& view) {
@@ -157,7 +158,7 @@ void add_pairs(const Rewriting& mesh, int depth, const rs::Kernel& kernel, Form 
           for (std::size_t lane = 0; lane < view.size(); ++lane)
             to->row((*of)[view.number(lane)], view.depth, view.j, view.vertices(lane));
         },
-        &context);
+        &sink_and_pairs);
     return;
   }
   const auto side = static_cast<std::size_t>(rs::side(depth));

@@ -192,12 +192,6 @@ FrameState::FrameState(const data::ControlMesh& given, const TessellatorOptions&
 
 template <class Real>
 Engine<Real>::Engine(std::unique_ptr<FrameEngine<Real>> state) : state_(std::move(state)) {}
-template <class Real>
-Engine<Real>::~Engine() = default;
-template <class Real>
-Engine<Real>::Engine(Engine&&) noexcept = default;
-template <class Real>
-Engine<Real>& Engine<Real>::operator=(Engine&&) noexcept = default;
 
 template <class Real>
 int Engine<Real>::face_count() const {

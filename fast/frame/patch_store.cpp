@@ -252,15 +252,9 @@ PatchMesh<Real>::PatchMesh(const PatchOptions& options, VertexMemory* memory)
     : options_(options),
       memory_(memory),
       own_(memory == nullptr ? std::make_unique<HeapMemory>() : nullptr),
-      store_(std::make_unique<PatchStore>()) {
+      store_(std::make_shared<PatchStore>()) {
   if (memory_ == nullptr) memory_ = own_.get();
 }
-template <class Real>
-PatchMesh<Real>::~PatchMesh() = default;
-template <class Real>
-PatchMesh<Real>::PatchMesh(PatchMesh&&) noexcept = default;
-template <class Real>
-PatchMesh<Real>& PatchMesh<Real>::operator=(PatchMesh&&) noexcept = default;
 
 template <class Real>
 void PatchMesh<Real>::clear() {

@@ -141,13 +141,19 @@ StarWeights<S> closed_weights(int n) {
   return w;
 }
 
+/// An open ring: du to e_0, the rest 0.
+template <class S>
+StarWeights<S> first_edge_alone(int n) {
+  StarWeights<S> w;
+  w.du.assign(2 * static_cast<std::size_t>(n) + 1, S(0));
+  w.dv = w.du;
+  w.du.front() = S(1);
+  return w;
+}
+
 template <class S>
 StarWeights<S> boundary_weights(int n) {
-  StarWeights<S> w;
-  const std::size_t size = 2 * static_cast<std::size_t>(n) + 1;
-  w.du.assign(size, S(0));
-  w.dv.assign(size, S(0));
-  w.du.front() = S(1);
+  StarWeights<S> w = first_edge_alone<S>(n);
   w.du.back() = S(-1);
   if (n == 1) {
     w.dv = {S(1), S(0), S(1)};
@@ -171,11 +177,7 @@ StarWeights<S> boundary_weights(int n) {
 
 template <class S>
 StarWeights<S> held_weights(int n) {
-  StarWeights<S> w;
-  const std::size_t size = 2 * static_cast<std::size_t>(n) + 1;
-  w.du.assign(size, S(0));
-  w.dv.assign(size, S(0));
-  w.du.front() = S(1);
+  StarWeights<S> w = first_edge_alone<S>(n);
   w.dv.back() = S(1);
   return w;
 }

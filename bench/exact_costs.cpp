@@ -24,7 +24,6 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
 #include "fast/rules/prepared_quads.h"
-#include "fast/stream/quad_row_stream.h"
 #include "fast/stream/row_stream.h"
 #include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"

@@ -40,7 +40,7 @@ struct Thread {
 // A sum of bits, which does not depend on threads or lanes.
 void add_row(void* context, const rs::RowView& view) {
   std::uint64_t& sum = *static_cast<std::uint64_t*>(context);
-  for (std::size_t lane = 0; lane < view.grids.size(); ++lane) {
+  for (std::size_t lane = 0; lane < view.size(); ++lane) {
     const float* row = &view.vertices(lane)->position.x;
     for (int k = 0; k < 6 * rs::side(view.depth); ++k) {
       std::uint32_t bits;

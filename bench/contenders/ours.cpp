@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "fast/stream/quad_row_stream.h"
 #include "fast/stream/row_stream.h"
 
 namespace limitcheck::bench {

@@ -96,16 +96,16 @@ class Engine {
 
  protected:
   explicit Engine(std::unique_ptr<FrameEngine<Real>> state);
-  ~Engine();
-  Engine(Engine&&) noexcept;
-  Engine& operator=(Engine&&) noexcept;
+  ~Engine() = default;
+  Engine(Engine&&) noexcept = default;
+  Engine& operator=(Engine&&) noexcept = default;
 
   FrameEngine<Real>& state() const { return *state_; }
 
  private:
   std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera, double& seconds);
 
-  std::unique_ptr<FrameEngine<Real>> state_;
+  std::shared_ptr<FrameEngine<Real>> state_;  // of this alone; shared pointers need no complete type
 };
 
 extern template class Engine<float>;

@@ -147,14 +147,13 @@ class IndexWriter {
     write_border(face, border);
     std::int64_t at = layout_.first_triangle[shown.face] + shown.parts * shown.inner().strips().triangles;
     for (int side = 0; side < face.sides(); ++side) {
-      const auto point = [&](std::int64_t t, bool is_inner) {
-        return is_inner ? index(patch_.beside(faces_, s, side, static_cast<int>(t)))
-                        : on_side(faces_.first_side(shown.face) + side, face.depth(side), t);
+      const auto point = [&](StitchPoint p) {
+        return p.inner ? index(patch_.beside(faces_, s, side, static_cast<int>(p.t)))
+                       : on_side(faces_.first_side(shown.face) + side, face.depth(side), p.t);
       };
-      face.stitch(
-          shown.cells, side, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
-            put_triangle(at++, shown.face, Kind::kStitched, {point(a, ai), point(b, bi), point(c, ci)});
-          });
+      face.stitch(shown.cells, side, [&](StitchPoint a, StitchPoint b, StitchPoint c) {
+        put_triangle(at++, shown.face, Kind::kStitched, {point(a), point(b), point(c)});
+      });
     }
   }
 

@@ -12,7 +12,7 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/crack.h"
 #include "fast/plan/faces.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 
 namespace limitcheck::fast {
 
@@ -77,12 +77,17 @@ struct ShownFace {
   PatchPoint first_inner(int part) const { return {part, cut ? 0 : 1, 1}; }
 };
 
+/// A point of the border of a side, or of the inner points next to it.
+struct StitchPoint {
+  std::int64_t t;
+  bool inner;
+};
+
 /// Joins the border points 0 .. 2^edge_depth of a side to the inner points 0 .. k - shorter of the row of lattice
 /// points next to it (k = 2^depth >= 4), without T-vertices. Inner point j lies over (j + shorter / 2) / k: shorter is
 /// 3 of a triangle, 2 of a quad or larger face. The shorter way goes first: segments are taken in the order of their
 /// midpoints along the side.
-///   triangle(a, a_inner, b, b_inner, c, c_inner)   counter-clockwise; a_inner says whether a is an index of
-///                                                  the inner row
+///   triangle(a, b, c)   counter-clockwise
 template <class Triangle>
 void stitch_rows(int k, int edge_depth, int shorter, Triangle&& triangle) {
   const std::int64_t outer_count = std::int64_t{1} << edge_depth, inner_count = k - shorter;
@@ -91,13 +96,8 @@ void stitch_rows(int k, int edge_depth, int shorter, Triangle&& triangle) {
     const bool take_outer =
         inner == inner_count ||
         (outer < outer_count && (2 * outer + 1) * k <= (2 * inner + shorter + 1) * outer_count);
-    if (take_outer) {
-      triangle(outer, false, outer + 1, false, inner, true);
-      ++outer;
-    } else {
-      triangle(outer, false, inner + 1, true, inner, true);
-      ++inner;
-    }
+    const StitchPoint from{outer, false}, over{inner, true};
+    triangle(from, take_outer ? StitchPoint{++outer, false} : StitchPoint{++inner, true}, over);
   }
 }
 

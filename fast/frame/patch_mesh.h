@@ -77,9 +77,8 @@ class PatchMesh {
 
   /// In memory of its own, or in the caller's, which must outlive it.
   explicit PatchMesh(const PatchOptions& options = {}, VertexMemory* memory = nullptr);
-  ~PatchMesh();
-  PatchMesh(PatchMesh&&) noexcept;
-  PatchMesh& operator=(PatchMesh&&) noexcept;
+  PatchMesh(PatchMesh&&) noexcept = default;
+  PatchMesh& operator=(PatchMesh&&) noexcept = default;
 
   const PatchOptions& options() const { return options_; }
   std::span<const PatchDraw> draws() const { return draws_; }
@@ -105,7 +104,7 @@ class PatchMesh {
   PatchOptions options_;
   VertexMemory* memory_;
   std::unique_ptr<VertexMemory> own_;
-  std::unique_ptr<PatchStore> store_;
+  std::shared_ptr<PatchStore> store_;  // of this alone; shared pointers need no complete type
   std::vector<PatchDraw> draws_;
   std::span<SurfaceVertex<Real>> vertices_;
   std::span<CompactVertex> compact_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Brings a PatchMesh from one frame of an engine to the next: where the patches of a mesh lie in a buffer of vertices,
-// what they showed when they were written there, and how their points get there.
+// The index patterns of patches, each made once. Brings a PatchMesh from one frame of an engine to the next:
+// where the patches of a mesh lie in a buffer of vertices, what they showed when they were written there, and
+// how their points get there.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +14,43 @@
 #include <utility>
 #include <vector>
 
-#include "fast/frame/patch_indices.h"
+#include "fast/frame/patch.h"
 #include "fast/frame/patch_mesh.h"
 #include "fast/frame/stores.h"
 #include "fast/plan/crack.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/depth.h"
+#include "fast/plan/pairing.h"
 #include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {
+
+/// A pattern: indices first .. first + count - 1.
+struct IndexPattern {
+  std::uint32_t first = 0, count = 0;
+  std::int32_t triangles = 0;
+};
+
+/// Makes patterns where they are asked for first; they are appended to a list.
+class PatchIndices {
+ public:
+  /// The parts of a face; or both halves of a grid, face0's triangles first.
+  IndexPattern strips(const ShownFace& shown, int depth, IndexForm form, std::vector<std::uint32_t>& out);
+  /// The centre, then `border` points, then the triangles between them, the last of which ends at the first point.
+  IndexPattern fan(int border, std::vector<std::uint32_t>& out);
+  /// The corners of a face by themselves.
+  IndexPattern corners(int sides, std::vector<std::uint32_t>& out);
+  /// A face of a patch whose inside is kept and whose outer ring is stitched to its border, the points of which follow
+  /// those of its parts: side by side, but for the end of each.
+  template <class Patch, class Faces>
+  IndexPattern stitched(const Patch& patch, int s, const Faces& faces, const CrackPlan& plan,
+                        std::vector<std::uint32_t>& out);
+
+ private:
+  std::array<std::array<IndexPattern, 2>, kDeepest + 1> grids_, halves_;  // by depth and form
+  std::vector<IndexPattern> fans_, corners_;                              // by number of points
+  std::map<std::array<int, 3>, IndexPattern> quads_;
+  std::map<std::vector<int>, IndexPattern> stitched_;  // by depth, the half's edge, and the depths of sides
+};
 
 template <class Real>
 struct FrameEngine;
@@ -72,7 +102,7 @@ struct PatchStore {
     std::uint32_t shown = 0;  // the last frame that did
   };
 
-  void place_all_anew();
+  void place_all_anew(std::size_t faces);
   std::int64_t take(std::int32_t size);
   void give_back(Kept& kept);
   void evict(std::int64_t most);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Frames of either scheme, and what each kind of engine does in its own way.
+// What Engine asks of the frames of a mesh; frames of either scheme, and what each kind of engine does in its own way.
 #pragma once
+
+#include <tbb/task_arena.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -10,14 +12,94 @@
 
 #include "data/control_mesh.h"
 #include "fast/frame/draw_writer.h"
-#include "fast/frame/frame_engine.h"
+#include "fast/frame/engine.h"
 #include "fast/frame/index_writer.h"
-#include "fast/frame/patch_writer.h"
+#include "fast/frame/patch.h"
+#include "fast/frame/patch_store.h"
+#include "fast/frame/sink.h"
+#include "fast/frame/stores.h"
 #include "fast/mesh/cut_mesh.h"
+#include "fast/mesh/vec3.h"
+#include "fast/plan/crack.h"
+#include "fast/plan/pairing.h"
 #include "fast/plan/printed_rules.h"
 #include "fast/plan/quad_depth.h"
 
 namespace limitcheck::fast {
+
+/// A mesh, and the plan of the frame it is at.
+struct FrameState {
+  /// throws   data::ArgumentError: no faces, a coordinate that is not finite, a negative number of threads
+  FrameState(const data::ControlMesh& given, const TessellatorOptions& with);
+  virtual ~FrameState() = default;
+
+  virtual int face_count() const = 0;
+  /// The depths that a strategy assigns to the control faces. Called in the arena.
+  virtual std::vector<std::int32_t> depths(const DepthOptions& strategy, const Camera& camera) = 0;
+  /// Makes grids of the faces, plans the cracks and makes the patches. The statistics that it returns lack
+  /// the number of vertices, the zero normals, and the times of what is still to do.
+  ///   throws   data::ArgumentError: not one depth per face, a depth outside -1 .. kDeepest
+  ///   keep     pairs of faces that are to stay together, each of faces of one depth; for Loop's scheme
+  virtual FrameStats plan_frame(std::span<const std::int32_t> depth, std::span<const Grid> keep) = 0;
+  /// The same; what was planned stays if the depths and pairs are those of the last plan.
+  FrameStats plan_or_keep(std::span<const std::int32_t> depth, std::span<const Grid> keep);
+  /// When mesh.positions have changed: what depends on them is made anew.
+  virtual void points_moved() = 0;
+  virtual std::size_t patch_count() const = 0;
+  virtual DrawSize patch_size(std::size_t i) const = 0;
+
+  data::ControlMesh mesh;
+  TessellatorOptions options;
+  tbb::task_arena arena;
+  PairingResult pairing;
+  CrackPlan plan;
+  int max_depth = 0;                        // of grids and edges
+  const std::uint64_t id = next_version();  // of this mesh with its options, among all in the process
+  std::uint64_t version = id;               // of its control points
+  void renew_version() { version = next_version(); }
+
+ private:
+  static std::uint64_t next_version();
+
+  struct Planned {
+    std::vector<std::int32_t> depth;
+    std::vector<Grid> keep;
+    FrameStats stats;
+  };
+  std::optional<Planned> planned_;
+};
+
+/// The same with points of a number type.
+template <class Real>
+struct FrameEngine : FrameState {
+  using FrameState::FrameState;
+
+  /// Called when a frame has been planned.
+  virtual void prepare() = 0;
+  /// Evaluates patches first .. last - 1 into a draw list that has room for them, offsets[] saying where.
+  virtual void draw(std::size_t first, std::size_t last, DrawList<Real>& out) = 0;
+  /// Evaluates all patches into an indexed mesh.
+  ///   throws   data::ArgumentError: more vertices than 32-bit indices reach
+  virtual void write_index(IndexedMesh<Real>& out) = 0;
+  /// The patches of this frame, in their order; then writes those that are fresh to their places, and adds
+  /// the calls that draw them all.
+  virtual void list_patches(std::vector<PatchWanted>& out) const = 0;
+  virtual void write_patches(std::span<const BlockOffset> places, const PatchTarget<Real>& out) = 0;
+  virtual void add_patch_draws(std::span<const BlockOffset> places, IndexForm form, PatchIndices& patterns,
+                               std::vector<std::uint32_t>& indices, std::vector<PatchDraw>& out) const = 0;
+  /// Vertices of this frame whose normal came from the rule for vanishing tangents.
+  virtual std::int64_t zero_normals() const = 0;
+
+  /// How a draw list is written: past the caches if it is large, but for the part that a sink reads at once.
+  Stores stores_of(const DrawList<Real>& out) const {
+    return &out == &part ? Stores::kOrdinary : stores_for(sizeof(SurfaceVertex<Real>) * out.vertices.size());
+  }
+
+  Placement<Real> placement;          // from the coordinates of what the writers are given to the caller's
+  std::vector<DrawSize> offsets;      // where each patch of the draw list begins, and the end
+  Stores stores = Stores::kOrdinary;  // of the vertices of a draw list
+  DrawList<Real> part;                // the part of a frame that a sink is given at a time
+};
 
 /// Of Loop's scheme: pairs of triangles.
 struct LoopScheme {
@@ -26,23 +108,20 @@ struct LoopScheme {
   using Heuristics = DepthHeuristics;
 
   /// Refers to the mesh. Throws data::ArgumentError: what TriangleMesh refuses.
-  LoopScheme(const data::ControlMesh& mesh, const PrintedRules& by) : rules(by), triangles(mesh) {}
-  void take_points(const data::ControlMesh& /*mesh*/) { triangles.points_moved(); }
+  LoopScheme(const data::ControlMesh& mesh, const PrintedRules& by) : rules(by), cut_mesh(mesh) {}
+  void take_points(const data::ControlMesh& /*mesh*/) { cut_mesh.points_moved(); }
 
   PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const {
     return pair_faces(adjacency, depth, rules, keep);
   }
-  CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
-    return plan_cracks(triangles, depth, options, rules);
-  }
   void make(std::optional<Heuristics>& heuristics, int max_depth) const {
-    heuristics.emplace(triangles.points(), adjacency, max_depth, triangles.kinds());
+    heuristics.emplace(cut_mesh.points(), adjacency, max_depth, cut_mesh.kinds());
   }
 
   PrintedRules rules;
-  TriangleMesh triangles;
-  const Adjacency& adjacency = triangles.adjacency();
-  LoopFaces faces{&adjacency};
+  TriangleMesh cut_mesh;
+  const Adjacency& adjacency = cut_mesh.adjacency();
+  LoopFaces faces{&adjacency, &cut_mesh};
 };
 
 /// Of Catmull-Clark's: a grid for each quad. [C21]
@@ -53,21 +132,19 @@ struct QuadScheme {
 
   /// Throws data::ArgumentError: what QuadMesh refuses.
   QuadScheme(const data::ControlMesh& mesh, const PrintedRules& /*by*/)
-      : quads(mesh), faces(mesh.faces, quads), semi_sharp(quads) {}
+      : cut_mesh(mesh), faces(mesh.faces, cut_mesh), semi_sharp(cut_mesh) {}
   void take_points(const data::ControlMesh& mesh) {
-    quads = QuadMesh(mesh);
+    cut_mesh = QuadMesh(mesh);
   }  // the same but for the positions
 
   /// One grid for each face that is displayed.
   PairingResult pair(std::span<const std::int32_t> depth, std::span<const Grid> keep) const;
-  CrackPlan plan_edges(std::span<const std::int32_t> depth, const CrackOptions& options) const {
-    return plan_cracks(faces, depth, options, PrintedRules{});
-  }
   void make(std::optional<Heuristics>& heuristics, int max_depth) const {
     heuristics.emplace(faces, semi_sharp, max_depth);
   }
 
-  QuadMesh quads;
+  static constexpr PrintedRules rules{};
+  QuadMesh cut_mesh;
   QuadFaces faces;
   SemiSharp semi_sharp;
 };

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 #include "fast/rules/surface_vertex.h"
 
 namespace limitcheck::fast {

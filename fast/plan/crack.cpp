@@ -4,18 +4,14 @@
 #include <algorithm>
 
 #include "data/error.h"
-#include "fast/mesh/cut_mesh.h"
 #include "fast/plan/faces.h"
 #include "fast/plan/printed_rules.h"
 
 namespace limitcheck::fast {
 
-namespace {
-
-// Faces of either scheme: across(side) is the face beyond, or -1.
-template <class Faces, class Across>
-CrackPlan plan_over(const Faces& faces, Across&& across, std::span<const std::int32_t> depth,
-                    const CrackOptions& options, const PrintedRules& rules) {
+template <class Faces>
+CrackPlan plan_cracks(const Faces& faces, std::span<const std::int32_t> depth, const CrackOptions& options,
+                      const PrintedRules& rules) {
   if (depth.size() != static_cast<std::size_t>(faces.size()))
     throw data::ArgumentError("cracks: not one depth per face");
   CrackPlan plan;
@@ -25,7 +21,7 @@ CrackPlan plan_over(const Faces& faces, Across&& across, std::span<const std::in
     const std::int32_t own = depth[f];
     if (own < 0) continue;
     const auto beyond = [&](std::int32_t side) {
-      const std::int32_t g = across(side);
+      const std::int32_t g = faces.across(side);
       return g < 0 || depth[g] < 0 ? own : depth[g];
     };
     int deeper = 0;
@@ -50,35 +46,14 @@ CrackPlan plan_over(const Faces& faces, Across&& across, std::span<const std::in
   return plan;
 }
 
-}  // namespace
-
-CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                      const CrackOptions& options, const PrintedRules& rules) {
-  return plan_over(
-      LoopFaces{&adjacency},
-      [&](std::int32_t side) {
-        const std::int32_t twin = adjacency.twin(side);
-        return twin < 0 ? -1 : Adjacency::face(twin);
-      },
-      depth, options, rules);
-}
-
-CrackPlan plan_cracks(const TriangleMesh& mesh, std::span<const std::int32_t> depth,
-                      const CrackOptions& options, const PrintedRules& rules) {
-  return plan_over(
-      LoopFaces{&mesh.adjacency()}, [&](std::int32_t side) { return mesh.across(side); }, depth, options,
-      rules);
-}
-
-CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
-                      const CrackOptions& options, const PrintedRules& rules) {
-  return plan_over(
-      faces, [&](std::int32_t side) { return faces.across(side); }, depth, options, rules);
-}
+template CrackPlan plan_cracks(const LoopFaces&, std::span<const std::int32_t>, const CrackOptions&,
+                               const PrintedRules&);
+template CrackPlan plan_cracks(const QuadFaces&, std::span<const std::int32_t>, const CrackOptions&,
+                               const PrintedRules&);
 
 CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                       const CrackOptions& options) {
-  return plan_cracks(adjacency, depth, options, PrintedRules{});
+  return plan_cracks(LoopFaces{&adjacency}, depth, options, PrintedRules{});
 }
 
 }  // namespace limitcheck::fast

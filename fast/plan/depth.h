@@ -18,7 +18,7 @@
 #include "data/control_mesh.h"
 #include "data/error.h"
 #include "fast/mesh/adjacency.h"
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/mesh/vec3.h"
 
 namespace limitcheck::fast {

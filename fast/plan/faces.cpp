@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fast/plan/faces.h"
 
+#include <array>
+
 namespace limitcheck::fast {
 
 namespace {

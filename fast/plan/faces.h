@@ -3,14 +3,13 @@
 // Catmull-Clark's consists of.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "data/faces.h"
 #include "fast/mesh/cut_mesh.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 
 namespace limitcheck::fast {
 
@@ -27,6 +26,10 @@ struct LoopFaces {
   static std::int32_t face_of(std::int32_t c) { return c / 3; }
   static std::int32_t next(std::int32_t c) { return Adjacency::next(c); }
   std::int32_t twin(std::int32_t c) const { return adjacency->twin(c); }
+  /// The face on the other side, of a cut too; -1 at a boundary.
+  std::int32_t across(std::int32_t c) const {
+    return mesh != nullptr ? mesh->across(c) : twin(c) < 0 ? -1 : face_of(twin(c));
+  }
   std::int32_t vertex(std::int32_t c) const { return adjacency->origin(c); }
   static LatticePoint corner(std::int32_t f, int k) { return {f, k == 1 ? 1u : 0u, k == 2 ? 1u : 0u, 1}; }
   static LatticePoint centre(std::int32_t f) { return {f, 1, 1, 3}; }
@@ -38,6 +41,7 @@ struct LoopFaces {
   }
 
   const Adjacency* adjacency;
+  const TriangleMesh* mesh = nullptr;  // that of the adjacency, if it may be cut
 };
 
 /// A point of one of the parts of a face, in steps of the part's grid.

@@ -11,9 +11,6 @@
 
 namespace limitcheck::fast {
 
-struct QuadFaces;
-class TriangleMesh;
-
 /// How faces move between the priority sets of the pairing, step 3. [C39]
 enum class PairingRule : std::uint8_t {
   kCorrected,  // as in erratum 6: what falls to one free neighbour goes to S0, then S3 -> S2, then S2 -> S1
@@ -37,13 +34,9 @@ struct PrintedRules {
 /// of faces of one depth.
 PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                          const PrintedRules& rules, std::span<const Grid> keep = {});
-CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                      const CrackOptions& options, const PrintedRules& rules);
-/// Here a cut is an edge like others, so that its sides meet.
-CrackPlan plan_cracks(const TriangleMesh& mesh, std::span<const std::int32_t> depth,
-                      const CrackOptions& options, const PrintedRules& rules);
-/// Likewise, of the control faces of a mesh of quads.
-CrackPlan plan_cracks(const QuadFaces& faces, std::span<const std::int32_t> depth,
-                      const CrackOptions& options, const PrintedRules& rules);
+/// Of the faces of either scheme. A cut is an edge like others here, so that its sides meet.
+template <class Faces>
+CrackPlan plan_cracks(const Faces& faces, std::span<const std::int32_t> depth, const CrackOptions& options,
+                      const PrintedRules& rules);
 
 }  // namespace limitcheck::fast

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"
 
@@ -62,11 +62,20 @@ void subdivide_in_place(Vec3<W>& v, std::span<Vec3<W>> ring, bool open,
   }
 }
 
-/// The unit normal of a fan, its faces weighted by area; zero if it is lost in rounding: at most `tolerance`
-/// times the square of the fan's radius. Rings of six are added in opposite pairs.
+/// A sum of facet normals brought to length 1; zero if it is lost in rounding: at most `tolerance` times the square of
+/// the facets' reach.
+template <class W>
+Vec3<W> unit_or_lost(const Vec3<W>& sum, const W& squared_reach, double tolerance) {
+  using std::sqrt;
+  const W size = sqrt(dot(sum, sum));
+  return size > W(tolerance) * squared_reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum
+                                                                                      : Vec3<W>{};
+}
+
+/// The unit normal of a fan, its faces weighted by area; zero if it is lost, the reach being the fan's radius. Rings of
+/// six are added in opposite pairs.
 template <class W>
 Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, double tolerance) {
-  using std::sqrt;
   const std::size_t n = ring.size();
   const auto face = [&](std::size_t i) { return cross(ring[i] - v, ring[(i + 1) % n] - v); };
   Vec3<W> sum{};
@@ -77,41 +86,40 @@ Vec3<W> area_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, 
   }
   W reach(0);
   for (const Vec3<W>& p : ring) reach = std::max(reach, dot(p - v, p - v));
-  const W size = sqrt(dot(sum, sum));
-  return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
+  return unit_or_lost(sum, reach, tolerance);
 }
 
 /// The unit normal where the tangents vanish or are parallel: that of the faces, weighted by area, after one
-/// to three steps in place, else before them, else (0, 0, 1). [D12]
-///   ring   is overwritten
-template <class W>
-Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance,
-                          VertexKind kind = VertexKind::kPlain) {
-  const Vec3<W> control = area_normal<W>(v, ring, open, tolerance);
-  for (int step = 0; step < 3; ++step) {
-    subdivide_in_place<W>(v, ring, open, kind);
-    const Vec3<W> normal = area_normal<W>(v, ring, open, tolerance);
+/// to three steps, else before them, else (0, 0, 1). [D12]
+///   of_faces()   their normal as they are, zero if it is lost
+template <class W, class OfFaces, class Step>
+Vec3<W> normal_after_steps(const OfFaces& of_faces, const Step& step) {
+  const Vec3<W> control = of_faces();
+  for (int k = 0; k < 3; ++k) {
+    step();
+    const Vec3<W> normal = of_faces();
     if (normal != Vec3<W>{}) return normal;
   }
   return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
 }
 
-/// The same for a control vertex, whose ring is kept.
+/// The same of a fan.
+///   ring   is overwritten
 template <class W>
-Vec3<W> substitute_normal(const Vec3<W>& v, std::span<const Vec3<W>> ring, bool open, VertexKind kind) {
-  std::vector<Vec3<W>> copy(ring.begin(), ring.end());
-  return substitute_normal<W>(v, copy, open, kParallel<double>, kind);
+Vec3<W> substitute_normal(Vec3<W> v, std::span<Vec3<W>> ring, bool open, double tolerance,
+                          VertexKind kind = VertexKind::kPlain) {
+  return normal_after_steps<W>([&] { return area_normal<W>(v, ring, open, tolerance); },
+                               [&] { subdivide_in_place<W>(v, ring, open, kind); });
 }
 
 /// The unit normal of a control vertex: du x dv, unless one of them vanishes (kVanishing) or they are
-/// parallel (kParallel<double>); then that of substitute_normal(), and `degenerate` becomes true. [D12]
+/// parallel (kParallel<double>); then substitute(), and `degenerate` becomes true. [D12]
 ///   ring      the points that the tangents sum, v the vertex
 ///   farthest  no point of the ring is farther from v, if that is known: it saves looking
-template <class W>
-inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
-                             bool open, bool& degenerate,
-                             double farthest = std::numeric_limits<double>::infinity(),
-                             VertexKind kind = VertexKind::kPlain) {
+template <class W, class Substitute>
+inline Vec3<W> normal_or_substitute(const LimitFrame<W>& limit, const Vec3<W>& v,
+                                    std::span<const Vec3<W>> ring, bool& degenerate, double farthest,
+                                    const Substitute& substitute) {
   using std::sqrt;
   const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
   const Vec3<W> normal = cross(limit.du, limit.dv);
@@ -122,7 +130,19 @@ inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::
     for (const Vec3<W>& r : ring) reach = reach + length(r - v);
     degenerate = degenerate || !(std::min(a, b) > W(kVanishing) * reach);
   }
-  return degenerate ? substitute_normal(v, ring, open, kind) : W(1) / size * normal;
+  return degenerate ? substitute() : W(1) / size * normal;
+}
+
+/// The same of Loop's scheme, with substitute_normal(); the ring is kept.
+template <class W>
+inline Vec3<W> vertex_normal(const LimitFrame<W>& limit, const Vec3<W>& v, std::span<const Vec3<W>> ring,
+                             bool open, bool& degenerate,
+                             double farthest = std::numeric_limits<double>::infinity(),
+                             VertexKind kind = VertexKind::kPlain) {
+  return normal_or_substitute(limit, v, ring, degenerate, farthest, [&] {
+    std::vector<Vec3<W>> copy(ring.begin(), ring.end());
+    return substitute_normal<W>(v, copy, open, kParallel<double>, kind);
+  });
 }
 
 /// At a vertex of valence 6, (6 v + ring) / 12, du = 2 C and dv = 2 S / sqrt(3) of the ring started at e.

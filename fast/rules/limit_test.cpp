@@ -241,7 +241,7 @@ Normals normals_of(const data::ControlMesh& mesh, std::int32_t v) {
   result.stream_degenerate = stream.degenerate_normals() > 0;
   Ring ring;
   ring.gather(mesh, adjacency, v);
-  result.heuristics = ring.limit_normal(&result.heuristics_degenerate);
+  result.heuristics = ring.limit_vertex(&result.heuristics_degenerate).normal;
   return result;
 }
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,9 +16,9 @@
 
 namespace limitcheck::fast {
 
-/// The control points, rounded to N.
-template <class N>
-std::vector<Vec3<N>> positions_of(const data::ControlMesh& mesh) {
+/// The control points of a mesh, rounded to N.
+template <class N, class Mesh>
+std::vector<Vec3<N>> positions_of(const Mesh& mesh) {
   std::vector<Vec3<N>> positions;
   for (const auto& p : mesh.positions)
     positions.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
@@ -37,15 +36,11 @@ class PreparedMesh {
   using Wide = typename NumberTraits<N>::Wide;
 
   /// One position per vertex of the adjacency. Keeps a reference to the kinds, too.
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {})
+  ///   with_limits   otherwise limit() is not to be asked
+  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds = {},
+               bool with_limits = true)
       : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
-    prepare<true>();
-  }
-  /// The same, but limit() is not to be asked.
-  struct WithoutLimits {};
-  PreparedMesh(const Adjacency& adjacency, std::vector<Vec3<N>> positions, VertexKinds kinds, WithoutLimits)
-      : adjacency_(&adjacency), positions_(std::move(positions)), kinds_(kinds) {
-    prepare<false>();
+    prepare(with_limits);
   }
 
   PreparedMesh(Adjacency&&, std::vector<Vec3<N>>, VertexKinds = {}) = delete;
@@ -61,8 +56,7 @@ class PreparedMesh {
   std::int64_t zero_normals() const { return zero_normals_; }
 
  private:
-  template <bool with_limits>
-  void prepare() {
+  void prepare(bool with_limits) {
     const Adjacency& mesh = adjacency();
     std::vector<VertexWeights<N>> by_valence(static_cast<std::size_t>(mesh.max_valence()) + 1);
     std::vector<bool> known(by_valence.size());
@@ -84,8 +78,7 @@ class PreparedMesh {
         weights_[v] = by_valence[neighbours];
       }
       table.make(n, open);
-      if constexpr (with_limits)
-        limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
+      if (with_limits) limits_[v] = limit_of(widen<N>(position(v)), ring, open, kind(v), table.of(n, open));
     }
   }
 
@@ -139,43 +132,25 @@ CornerRing<N, typename Surface::Vertex> gather_corner(const PreparedMesh<N, Surf
                                                       bool from_last_slot, Vec3<N>* storage) {
   const Adjacency& adjacency = mesh.adjacency();
   const std::int32_t v = adjacency.origin(h);
-  const std::int32_t first = adjacency.outgoing(v);
+  const std::span<const std::int32_t> fan = adjacency.fan(v);
+  const int faces = static_cast<int>(fan.size());
   CornerRing<N, typename Surface::Vertex> corner;
   corner.ring = storage;
   corner.n = adjacency.valence(v);
   corner.kind = mesh.kind(v);
   corner.weights = mesh.weights(v);
   corner.limit = &mesh.limit(v);
-  int slot = from_last_slot ? corner.n - 1 : 0;
-  if (!adjacency.on_boundary(v)) {
-    const std::span<const std::int32_t> fan = adjacency.fan(v);
-    int at = 0;
-    while (fan[at] != h) ++at;
-    corner.start = slot + corner.n - at - (slot < at ? 0 : corner.n);
-    for (int i = 0; i < corner.n; ++i) {
-      storage[slot] = mesh.position(adjacency.target(fan[at]));
-      slot = slot + 1 == corner.n ? 0 : slot + 1;
-      at = at + 1 == corner.n ? 0 : at + 1;
-    }
-    return corner;
-  }
-  std::int32_t walk = h;
+  int slot = from_last_slot ? corner.n - 1 : 0, at = 0;
+  while (fan[at] != h) ++at;
+  corner.start = slot + corner.n - at - (slot < at ? 0 : corner.n);
+  // The far neighbour of the last face before the boundary closes an open ring.
+  const bool open = corner.n > faces;
+  if (open) corner.gap = corner.start > 0 ? corner.start - 1 : corner.n - 1;
+  const std::int32_t last = open ? adjacency.origin(Adjacency::prev(fan[faces - 1])) : -1;
   for (int i = 0; i < corner.n; ++i) {
-    const int next = slot + 1 == corner.n ? 0 : slot + 1;
-    storage[slot] = mesh.position(adjacency.target(walk));
-    if (walk == first) corner.start = slot;
-    slot = next;
-    const std::int32_t after = adjacency.rotate(walk);
-    if (after < 0) {
-      // The last face before the boundary: its far neighbour closes the open ring, which then begins anew.
-      storage[next] = mesh.position(adjacency.origin(Adjacency::prev(walk)));
-      corner.gap = next;
-      slot = next + 1 == corner.n ? 0 : next + 1;
-      walk = first;
-      ++i;
-    } else {
-      walk = after;
-    }
+    storage[slot] = mesh.position(at < faces ? adjacency.target(fan[at]) : last);
+    slot = slot + 1 == corner.n ? 0 : slot + 1;
+    at = at + 1 == corner.n ? 0 : at + 1;
   }
   return corner;
 }

@@ -6,8 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,19 +58,14 @@ class SemiSharp {
   std::vector<std::vector<StarTags>> steps_;
 };
 
-/// The unit normal of a vertex: du x dv of its limit, unless they vanish or are parallel, as vertex_normal()
-/// of limit.h says; then that of substitute_star_normal(), and `degenerate` becomes true. [D12]
+/// The unit normal of a vertex, see normal_or_substitute(), with substitute_star_normal().
 ///   own   is subdivided then
 template <class W>
 Vec3<W> star_normal(const LimitFrame<W>& limit, OwnQuadStar<W>& own, bool& degenerate) {
-  using std::sqrt;
-  const auto length = [](const Vec3<W>& a) { return sqrt(dot(a, a)); };
-  const Vec3<W> normal = cross(limit.du, limit.dv);
-  const W size = length(normal), a = length(limit.du), b = length(limit.dv);
-  W reach(0);
-  for (int i = 0; i < own.star.size(); ++i) reach = reach + length(own.star.ring[i] - own.star.centre);
-  degenerate = !(size > W(kParallel<double>) * a * b) || !(std::min(a, b) > W(kVanishing) * reach);
-  return degenerate ? substitute_star_normal(own, kParallel<double>) : W(1) / size * normal;
+  const std::span<const Vec3<W>> ring(own.star.ring, static_cast<std::size_t>(own.star.size()));
+  return normal_or_substitute(limit, own.star.centre, ring, degenerate,
+                              std::numeric_limits<double>::infinity(),
+                              [&] { return substitute_star_normal(own, kParallel<double>); });
 }
 
 /// The sums of e_i - c and f_i - c over a closed ring.
@@ -165,21 +160,17 @@ QuadCorner<N, typename Surface::Vertex> gather_corner(const PreparedQuads<N, Sur
                                                       Vec3<N>* storage) {
   const QuadAdjacency& adjacency = mesh.mesh().adjacency;
   const std::int32_t v = adjacency.origin(h);
-  const auto fan = adjacency.fan(v);
   QuadCorner<N, typename Surface::Vertex> corner;
-  corner.star = {mesh.position(v), storage, static_cast<int>(fan.size()), adjacency.on_boundary(v),
-                 mesh.mesh().kind(v)};
+  corner.star = {mesh.position(v), storage, static_cast<int>(adjacency.fan(v).size()),
+                 adjacency.on_boundary(v), mesh.mesh().kind(v)};
   corner.sector = mesh.slot(h);
   corner.limit = &mesh.limit(v);
   corner.tags = mesh.semi_sharp().steps(v);
   corner.by_sums = !corner.star.open && corner.star.kind == VertexKind::kPlain && corner.tags.empty();
   corner.centre = widen<N>(corner.star.centre);
   corner.sums = {mesh.sums(v).edges, mesh.sums(v).faces};
-  for (const std::int32_t k : fan) {
-    *storage++ = mesh.position(adjacency.target(k));
-    *storage++ = mesh.position(adjacency.target(QuadAdjacency::next(k)));
-  }
-  if (corner.star.open) *storage = mesh.position(adjacency.origin(QuadAdjacency::prev(fan.back())));
+  gather_ring(
+      adjacency, v, [&](std::int32_t w) -> const Vec3<N>& { return mesh.position(w); }, storage);
   return corner;
 }
 
@@ -210,17 +201,28 @@ void subdivide_corner(const QuadCorner<N, Vertex>& old, QuadCorner<N, Vertex>& o
 
 namespace detail {
 
-/// The normal that takes the place of one that is lost, for a star of these points: closed, or open if there
-/// is an odd number. Linear numbers have no sizes, and no need of it.
+/// The star of a point: closed, or open if there is an odd number of points around it.
+template <class N, std::size_t kPoints>
+void fill_star(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring,
+               OwnQuadStar<typename NumberTraits<N>::Wide>& own) {
+  own.resize(static_cast<int>(kPoints / 2), kPoints % 2 == 1, VertexKind::kPlain);
+  own.star.centre = widen<N>(v);
+  for (std::size_t i = 0; i < kPoints; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+}
+template <class N>
+std::array<const Vec3<N>*, 8> ring_of(const QuadNeighbours<N>& r) {
+  return {&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se};
+}
+
+/// The normal that takes the place of one that is lost, for such a star. Linear numbers have no sizes, and no
+/// need of it.
 template <class N, class Surface, std::size_t kPoints>
 WideVec3<N> substitute_normal_of(const Vec3<N>& v, const std::array<const Vec3<N>*, kPoints>& ring) {
   if constexpr (requires { Surface::kLinear; }) {
     return {};
   } else {
     OwnQuadStar<typename NumberTraits<N>::Wide> own;
-    own.resize(static_cast<int>(kPoints / 2), kPoints % 2 == 1, VertexKind::kPlain);
-    own.star.centre = widen<N>(v);
-    for (std::size_t i = 0; i < kPoints; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+    fill_star(v, ring, own);
     return substitute_star_normal(own, kParallel<N>);
   }
 }
@@ -233,11 +235,7 @@ typename Surface::Vertex quad_vertex_limit(const Vec3<N>& v, const QuadNeighbour
                                            std::int64_t& zero_normals) {
   return Surface::vertex(
       regular_quad_limit(v, r),
-      [&] {
-        return detail::substitute_normal_of<N, Surface>(
-            v, std::array<const Vec3<N>*, 8>{&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se});
-      },
-      zero_normals);
+      [&] { return detail::substitute_normal_of<N, Surface>(v, detail::ring_of(r)); }, zero_normals);
 }
 
 /// On a boundary, ring e, ne, n, nw, w counter-clockwise.
@@ -261,10 +259,7 @@ typename Surface::Vertex semi_sharp_limit(const Vec3<N>& v, const QuadNeighbours
                                           data::Creasing creasing, std::int64_t& zero_normals) {
   using Wide = typename NumberTraits<N>::Wide;
   OwnQuadStar<Wide> own;
-  own.resize(4, false, VertexKind::kPlain);
-  own.star.centre = widen<N>(v);
-  const Vec3<N>* ring[] = {&r.e, &r.ne, &r.n, &r.nw, &r.w, &r.sw, &r.s, &r.se};
-  for (std::size_t i = 0; i < 8; ++i) own.star.ring[i] = widen<N>(*ring[i]);
+  detail::fill_star(v, detail::ring_of(r), own);
   for (const StarTags& tags : straight_steps(before, after, creasing)) own.subdivide(&tags);
   const auto at = [&](int i) -> const Vec3<Wide>& { return own.star.ring[i]; };
   const LimitFrame<Wide> limit = regular_quad_limit(

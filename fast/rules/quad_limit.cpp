@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "fast/rules/quad_limit_impl.h"
-
 namespace limitcheck::fast::detail {
 
 namespace {

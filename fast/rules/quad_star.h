@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <span>
 #include <vector>
 
 #include "fast/mesh/cut_mesh.h"
+#include "fast/rules/limit.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"
 
@@ -167,6 +166,17 @@ Vec3<N> subdivide_centre(const QuadStar<N>& star, const StarTags* tags, const Qu
   return tags->held > 0 ? blend(tags->held, star.centre, point) : point;
 }
 
+/// The points around a vertex, from adjacency.outgoing(v) on.
+template <class Position, class N>
+void gather_ring(const QuadAdjacency& adjacency, std::int32_t v, Position&& position, Vec3<N>* out) {
+  const auto fan = adjacency.fan(v);
+  for (const std::int32_t h : fan) {
+    *out++ = position(adjacency.target(h));
+    *out++ = position(adjacency.target(QuadAdjacency::next(h)));
+  }
+  if (adjacency.on_boundary(v)) *out = position(adjacency.origin(QuadAdjacency::prev(fan.back())));
+}
+
 /// A star with memory of its own, in a field W: what is done once per control vertex.
 template <class W>
 class OwnQuadStar {
@@ -182,15 +192,15 @@ class OwnQuadStar {
   template <class Position>
   void gather(const QuadMesh& mesh, std::int32_t v, Position&& position) {
     const QuadAdjacency& adjacency = mesh.adjacency;
-    const auto fan = adjacency.fan(v);
-    resize(static_cast<int>(fan.size()), adjacency.on_boundary(v), mesh.kind(v));
+    resize(static_cast<int>(adjacency.fan(v).size()), adjacency.on_boundary(v), mesh.kind(v));
     star.centre = position(v);
-    Vec3<W>* out = star.ring;
-    for (const std::int32_t h : fan) {
-      *out++ = position(adjacency.target(h));
-      *out++ = position(adjacency.target(QuadAdjacency::next(h)));
-    }
-    if (star.open) *out = position(adjacency.origin(QuadAdjacency::prev(fan.back())));
+    gather_ring(adjacency, v, position, star.ring);
+  }
+  /// Another star as it is now.
+  void copy(const OwnQuadStar& other) {
+    resize(other.star.faces, other.star.open, other.star.kind);
+    star.centre = other.star.centre;
+    std::copy_n(other.star.ring, star.size(), star.ring);
   }
   void resize(int faces, bool open, VertexKind kind) {
     star = {{}, nullptr, faces, open, kind};
@@ -216,7 +226,6 @@ class OwnQuadStar {
 /// area_normal() of limit.h. Rings of four are added in opposite pairs.
 template <class W>
 Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
-  using std::sqrt;
   const Vec3<W>& v = star.centre;
   const auto face = [&](int i) { return cross(star.face(i) - v, star.edge(i + 1) - star.edge(i)); };
   Vec3<W> sum{};
@@ -227,21 +236,14 @@ Vec3<W> star_area_normal(const QuadStar<W>& star, double tolerance) {
   }
   W reach(0);
   for (int i = 0; i < star.size(); ++i) reach = std::max(reach, dot(star.ring[i] - v, star.ring[i] - v));
-  const W size = sqrt(dot(sum, sum));
-  return size > W(tolerance) * reach && size >= std::numeric_limits<W>::min() ? W(1) / size * sum : Vec3<W>{};
+  return unit_or_lost(sum, reach, tolerance);
 }
 
-/// The unit normal where the tangents vanish or are parallel, as substitute_normal() of limit.h:
-/// that of the faces after one to three steps, else before them, else (0, 0, 1). [D12]
+/// That of a star, see normal_after_steps(), which subdivides it.
 template <class W>
 Vec3<W> substitute_star_normal(OwnQuadStar<W>& own, double tolerance) {
-  const Vec3<W> control = star_area_normal(own.star, tolerance);
-  for (int step = 0; step < 3; ++step) {
-    own.subdivide();
-    const Vec3<W> normal = star_area_normal(own.star, tolerance);
-    if (normal != Vec3<W>{}) return normal;
-  }
-  return control != Vec3<W>{} ? control : Vec3<W>{W(0), W(0), W(1)};
+  return normal_after_steps<W>([&] { return star_area_normal(own.star, tolerance); },
+                               [&] { own.subdivide(); });
 }
 
 }  // namespace limitcheck::fast

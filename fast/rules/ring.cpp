@@ -41,14 +41,6 @@ void Ring::subdivide() {
   if (!points_.empty()) subdivide_in_place<double>(centre_, points_, open_, kind_);
 }
 
-Point3 Ring::limit_position() const {
-  return limit_vertex().position;
-}
-
-Point3 Ring::limit_normal(bool* degenerate) const {
-  return limit_vertex(degenerate).normal;
-}
-
 SurfaceVertex<double> Ring::limit_vertex(bool* degenerate, double farthest) const {
   bool without_tangents = true;
   SurfaceVertex<double> vertex{centre_, {0, 0, 1}};
@@ -106,9 +98,7 @@ SurfaceVertex<double> QuadRing::limit_vertex(bool* degenerate, double /*farthest
   bool without_tangents = true;
   SurfaceVertex<double> vertex{centre(), {0, 0, 1}};
   if (faces() > 0) {
-    final_.resize(own_.star.faces, own_.star.open, own_.star.kind);
-    final_.star.centre = own_.star.centre;
-    std::copy(own_.star.ring, own_.star.ring + own_.star.size(), final_.star.ring);
+    final_.copy(own_);
     for (const StarTags& tags : tags_) final_.subdivide(&tags);
     const LimitFrame<double> at =
         star_limit(final_.star, weights_.of(final_.star.faces, final_.star.open, final_.star.kind));

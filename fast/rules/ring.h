@@ -48,16 +48,11 @@ class Ring {
 
   void subdivide();
 
-  /// Limit position of the centre. [eq. 3; claims C14, D1]
-  Point3 limit_position() const;
-  /// Unit limit normal of the centre, from the tangents of vertex_limit.h by the rule of limit.h;
-  /// `degenerate`: whether the tangents vanish or are parallel. On the boundary with six or more faces the
-  /// surface has no tangent plane [claim D5], and this is the plane of the masks' eigenvector.
-  /// [erratum 1; D12]
-  Point3 limit_normal(bool* degenerate = nullptr) const;
-
-  /// Both.
-  ///   farthest   no point of the ring is farther from the centre, if that is known: it saves looking
+  /// Limit position and unit normal of the centre, from the tangents of vertex_limit.h by the rule of limit.h. On the
+  /// boundary with six or more faces the surface has no tangent plane [claim D5], and this is the plane of the masks'
+  /// eigenvector. [eq. 3; claims C14, D1, D12; erratum 1]
+  ///   degenerate   whether the tangents vanish or are parallel
+  ///   farthest     no point of the ring is farther from the centre, if that is known: it saves looking
   SurfaceVertex<double> limit_vertex(bool* degenerate = nullptr,
                                      double farthest = std::numeric_limits<double>::infinity()) const;
 

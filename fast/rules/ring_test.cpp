@@ -87,7 +87,7 @@ TEST(Ring, LimitPositionIsWhereManyStepsEnd) {
   for (const bool open : {false, true}) {
     for (int n = open ? 2 : 3; n <= 40; ++n) {
       Ring ring = bumpy_ring(n, open);
-      const Point3 limit = ring.limit_position();
+      const Point3 limit = ring.limit_vertex().position;
       for (int step = 0; step < 120; ++step) ring.subdivide();
       ASSERT_LE(length(ring.centre() - limit), 1e-14) << "n " << n << " open " << open;
     }
@@ -101,11 +101,11 @@ TEST(Ring, LimitNormalIsInvariantUnderSubdivisionAndTheLimitOfTheFaceNormals) {
   for (const bool open : {false, true}) {
     for (int n = open ? 2 : 3; n <= 40; ++n) {
       Ring ring = bumpy_ring(n, open);
-      const Point3 normal = ring.limit_normal();
+      const Point3 normal = ring.limit_vertex().normal;
       ASSERT_NEAR(length(normal), 1, 1e-15);
       for (int step = 0; step < 12; ++step) {
         ring.subdivide();
-        ASSERT_LE(angle_between(ring.limit_normal(), normal), 1e-7) << "n " << n << " open " << open;
+        ASSERT_LE(angle_between(ring.limit_vertex().normal, normal), 1e-7) << "n " << n << " open " << open;
       }
       // Claim D5: no tangent plane with six or more faces at a boundary vertex. With five the faces approach
       // it by .9 a step, too slow to be seen here.
@@ -125,7 +125,7 @@ TEST(Ring, DegenerateRingsGetAFiniteUnitNormalAndSaySo) {
   RecordProperty("claim", "D12");
   const auto expect_unit = [](const Ring& ring, bool expected) {
     bool degenerate = !expected;
-    const Point3 normal = ring.limit_normal(&degenerate);
+    const Point3 normal = ring.limit_vertex(&degenerate).normal;
     EXPECT_EQ(degenerate, expected);
     EXPECT_NEAR(length(normal), 1, 1e-14);
   };
@@ -139,7 +139,7 @@ TEST(Ring, DegenerateRingsGetAFiniteUnitNormalAndSaySo) {
     twice.push_back({std::cos(i * std::numbers::pi / 2), std::sin(i * std::numbers::pi / 2), 0});
   ring.assign({0, 0, 0}, twice, false);
   expect_unit(ring, true);
-  EXPECT_DOUBLE_EQ(ring.limit_normal().z, 1);
+  EXPECT_DOUBLE_EQ(ring.limit_vertex().normal.z, 1);
   expect_unit(bumpy_ring(6, false), false);
   expect_unit(bumpy_ring(3, true), false);
 }

@@ -4,18 +4,15 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 
 namespace limitcheck::fast {
 
 namespace {
 
-double half_of(double sharpness, double sum, int count, data::Creasing creasing) {
-  return softened(sharpness, sum, count, creasing);
-}
 // The half of an edge towards a point where it goes straight on into another.
 double half_towards(double sharpness, double onward, data::Creasing creasing) {
-  return half_of(sharpness, sharpness + onward, (sharpness > 0 ? 1 : 0) + (onward > 0 ? 1 : 0), creasing);
+  return softened(sharpness, sharpness + onward, (sharpness > 0 ? 1 : 0) + (onward > 0 ? 1 : 0), creasing);
 }
 
 // One edge of a star at some level: the part at the vertex, the part after it (0 at level 0, where there is
@@ -54,8 +51,8 @@ double edge_crease_share(double sharpness, double half, double other_half) {
 
 double curve_share(double before, double after, data::Creasing creasing) {
   if (before <= 0 || after <= 0) return 0;
-  const double b = half_of(before, before + after, 2, creasing),
-               a = half_of(after, before + after, 2, creasing);
+  const double b = softened(before, before + after, 2, creasing),
+               a = softened(after, before + after, 2, creasing);
   if (b > 0 && a > 0) return 1;
   double sum = 0, count = 0;
   if (b <= 0) sum += before, ++count;
@@ -123,8 +120,8 @@ SemiSharp::SemiSharp(const QuadMesh& mesh) : mesh_(&mesh) {
       std::vector<Spoke> after = hub.spokes;
       std::vector<double> share;
       for (Spoke& spoke : after) {
-        const double near = half_of(spoke.near, hub.sum, hub.count, mesh.creasing);
-        const double far = first ? half_of(spoke.near, spoke.far_sum, spoke.far_count, mesh.creasing)
+        const double near = softened(spoke.near, hub.sum, hub.count, mesh.creasing);
+        const double far = first ? softened(spoke.near, spoke.far_sum, spoke.far_count, mesh.creasing)
                                  : half_towards(spoke.near, spoke.onward, mesh.creasing);
         share.push_back(edge_crease_share(spoke.near, near, far));
         if (spoke.near > 0 && near <= 0) vanishing += spoke.near, ++vanishing_count;
@@ -176,8 +173,8 @@ void SemiSharp::along(std::int32_t h, int levels, std::vector<double>& out) cons
     const std::size_t n = std::size_t{1} << level;
     const auto end = [&](std::int32_t v, double s) {
       const StarTags* tags = step(v, static_cast<std::size_t>(level));
-      return tags == nullptr ? half_of(s, 0, 0, mesh_->creasing)
-                             : half_of(s, tags->sum, tags->count, mesh_->creasing);
+      return tags == nullptr ? softened(s, 0, 0, mesh_->creasing)
+                             : softened(s, tags->sum, tags->count, mesh_->creasing);
     };
     for (std::size_t i = 0; i < n; ++i) {
       const double s = out[first + i];

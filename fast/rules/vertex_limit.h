@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "data/error.h"
-#include "fast/mesh/sharpness.h"
+#include "fast/mesh/cut_mesh.h"
 #include "fast/mesh/vec3.h"
 #include "fast/rules/masks.h"
 #include "fast/rules/surface_vertex.h"

@@ -111,8 +111,6 @@ class QuadWindow {
     side_[1].fill(mesh, h[1], depth, true);   // right, from the top
     side_[2].fill(mesh, h[2], depth, true);   // top, from the left
     side_[3].fill(mesh, h[3], depth, false);  // left, from the top
-    top_is_inside_ = side_[2].inside();
-    bottom_is_inside_ = side_[0].inside();
     const auto& c = l.corner;
     l.rows[kTop][0] = c[3].star.centre;
     l.rows[kTop][1] = c[2].star.centre;
@@ -137,7 +135,7 @@ class QuadWindow {
     Vec3<N>*line = l.rows[upper ? kTop : kBottom], *out = l.rows[upper ? kOutTop : kOutBottom];
     if (side_[3].inside()) line[-1] = upper ? left.beyond_right() : left.beyond_left();
     if (side_[1].inside()) line[n + 1] = upper ? right.beyond_left() : right.beyond_right();
-    if (!(upper ? top_is_inside_ : bottom_is_inside_)) return;
+    if (!side_[upper ? 2 : 0].inside()) return;
     out[0] = upper ? left.beyond_left() : left.beyond_right();
     out[n] = upper ? right.beyond_right() : right.beyond_left();
   }
@@ -149,8 +147,8 @@ class QuadWindow {
     Level& from = levels_[s];
     const std::size_t top = s == 0 ? kTop : first_row(row), bottom = s == 0 ? kBottom : top + 1;
     const bool first = row == 0, last = row == n - 1;
-    const Vec3<N>* above = first && !top_is_inside_ ? nullptr : from.rows[top - 1];
-    const Vec3<N>* below = last && !bottom_is_inside_ ? nullptr : from.rows[s == 0 ? kOutBottom : bottom + 1];
+    const Vec3<N>* above = first && !side_[2].inside() ? nullptr : from.rows[top - 1];
+    const Vec3<N>* below = last && !side_[0].inside() ? nullptr : from.rows[s == 0 ? kOutBottom : bottom + 1];
     if (level == 0) {
       emit(row, from.rows[top], from.rows[bottom], above, below, sink);
       return;
@@ -231,7 +229,6 @@ class QuadWindow {
 
   int max_depth_, max_valence_;
   int depth_ = 0;
-  bool top_is_inside_ = false, bottom_is_inside_ = false;
   std::array<QuadSide, 4> side_;
   std::vector<Level> levels_;
   std::vector<Vec3<N>> storage_;

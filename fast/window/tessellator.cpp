@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "data/error.h"
@@ -17,7 +18,7 @@
 #include "fast/frame/scheme_frames.h"
 #include "fast/mesh/vec3.h"
 #include "fast/window/crack_edge.h"
-#include "fast/window/quad_edge.h"
+#include "fast/window/quad_rows.h"
 #include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"
 #include "fast/window/triangle_lattice.h"
@@ -73,11 +74,18 @@ std::vector<Vec3<Real>> place(std::span<const std::array<double, 3>> points, Pla
 /// What a thread reuses from patch to patch of triangles.
 template <class Real>
 struct LoopWorker {
+  using Mesh = PreparedMesh<Real>;
+
   LoopWorker(const LoopScheme& scheme, int max_depth)
       : window(max_depth, scheme.adjacency.max_valence()),
         edge(max_depth, scheme.adjacency.max_valence()),
         centre(scheme.adjacency.max_valence()) {
     for (auto& b : border) b.resize((std::size_t{1} << max_depth) + 1);
+  }
+  /// The mesh as the windows read it.
+  static void prepare(const LoopScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
+    out.emplace(scheme.adjacency, place<Real>(scheme.cut_mesh.points().positions, placement),
+                scheme.cut_mesh.kinds());
   }
 
   SlidingWindow<Real> window;
@@ -155,9 +163,14 @@ void evaluate(const PreparedMesh<Real>& mesh, const LoopPatch& patch, const Loop
 /// What a thread reuses from face to face of Catmull-Clark's scheme.
 template <class Real>
 struct QuadWorker {
+  using Mesh = PreparedQuads<Real>;
+
   QuadWorker(const QuadScheme& scheme, int max_depth)
-      : window(std::max(max_depth, 1), scheme.quads.adjacency.max_valence()),
-        edge(max_depth, scheme.quads.adjacency.max_valence()) {}
+      : window(std::max(max_depth, 1), scheme.cut_mesh.adjacency.max_valence()),
+        edge(max_depth, scheme.cut_mesh.adjacency.max_valence()) {}
+  static void prepare(const QuadScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
+    out.emplace(scheme.cut_mesh, place<Real>(scheme.cut_mesh.positions, placement));
+  }
 
   QuadWindow<Real> window;
   QuadEdge<Real> edge;
@@ -215,42 +228,23 @@ void evaluate(const PreparedQuads<Real>& mesh, const QuadPatch& patch, const Qua
   });
 }
 
-/// The mesh as the windows of a scheme read it, and what evaluates its patches.
 template <class Real, class Scheme>
-struct WindowOf;
-template <class Real>
-struct WindowOf<Real, LoopScheme> {
-  using Mesh = PreparedMesh<Real>;
-  using Worker = LoopWorker<Real>;
-  static void prepare(const LoopScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
-    out.emplace(scheme.adjacency, place<Real>(scheme.triangles.points().positions, placement),
-                scheme.triangles.kinds());
-  }
-};
-template <class Real>
-struct WindowOf<Real, QuadScheme> {
-  using Mesh = PreparedQuads<Real>;
-  using Worker = QuadWorker<Real>;
-  static void prepare(const QuadScheme& scheme, Placement<Real>& placement, std::optional<Mesh>& out) {
-    out.emplace(scheme.quads, place<Real>(scheme.quads.positions, placement));
-  }
-};
+using WorkerOf = std::conditional_t<std::is_same_v<Scheme, LoopScheme>, LoopWorker<Real>, QuadWorker<Real>>;
 
 template <class Real, class Scheme>
 struct WindowFrames final : SchemeFrames<Real, Scheme> {
   using Base = SchemeFrames<Real, Scheme>;
-  using Window = WindowOf<Real, Scheme>;
-  using Worker = typename Window::Worker;
+  using Worker = WorkerOf<Real, Scheme>;
   using Base::arena, Base::faces, Base::max_depth, Base::options, Base::patches, Base::placement, Base::plan;
 
   WindowFrames(const data::ControlMesh& given, const TessellatorOptions& with, const PrintedRules& by)
       : Base(given, with, by) {
-    Window::prepare(*this, placement, prepared);
+    Worker::prepare(*this, placement, prepared);
   }
 
   void points_moved() override {
     Base::points_moved();
-    Window::prepare(*this, placement, prepared);
+    Worker::prepare(*this, placement, prepared);
   }
 
   /// Makes workers that are deep enough for the frame.
@@ -299,7 +293,7 @@ struct WindowFrames final : SchemeFrames<Real, Scheme> {
     arena.execute([&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last, 16), chunk); });
   }
 
-  std::optional<typename Window::Mesh> prepared;
+  std::optional<typename Worker::Mesh> prepared;
   std::vector<std::unique_ptr<Worker>> workers;
   int worker_depth = 0;
   std::int64_t zero_normals_before = 0;  // of the workers, in the frames before

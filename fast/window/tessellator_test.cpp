@@ -216,13 +216,13 @@ TEST(Sec5_Stitch, MakesTheRingOfTrianglesItAnnounces) {
     for (int edge = depth; edge <= 8; ++edge) {
       const int k = 1 << depth;
       std::int64_t triangles = 0, outer = 0, inner = 0;
-      stitch_rows(k, edge, 3, [&](std::int64_t a, bool ai, std::int64_t b, bool bi, std::int64_t c, bool ci) {
+      stitch_rows(k, edge, 3, [&](StitchPoint a, StitchPoint b, StitchPoint c) {
         ++triangles;
-        EXPECT_FALSE(ai);
-        EXPECT_TRUE(ci);
-        EXPECT_EQ(a, outer);
-        EXPECT_EQ(c, inner);
-        EXPECT_EQ(b, bi ? ++inner : ++outer);
+        EXPECT_FALSE(a.inner);
+        EXPECT_TRUE(c.inner);
+        EXPECT_EQ(a.t, outer);
+        EXPECT_EQ(c.t, inner);
+        EXPECT_EQ(b.t, b.inner ? ++inner : ++outer);
       });
       EXPECT_EQ(outer, 1 << edge);
       EXPECT_EQ(inner, k - 3);

@@ -18,7 +18,7 @@
 #include "data/test_support/known_answers.h"
 #include "fast/test_support/refined_limits.h"
 #include "fast/test_support/test_meshes.h"
-#include "fast/window/quad_edge.h"
+#include "fast/window/quad_rows.h"
 #include "fast/window/quad_window.h"
 #include "fast/window/sliding_window.h"
 

@@ -40,7 +40,7 @@ std::vector<std::vector<double>> corner_cosines(const Scene& scene, int levels) 
   fast::Ring ring;
   for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
     ring.gather(scene.mesh, scene.adjacency, v);
-    const fast::Point3 normal = ring.limit_normal();
+    const fast::Point3 normal = ring.limit_vertex().normal;
     for (int l = 0; l <= levels; ++l) {
       if (l > 0) ring.subdivide();
       std::int32_t h =

@@ -21,11 +21,11 @@ flags=(-std=c++20 -I "$copy" -ffp-contract=off -MD)
 declare -A sources=(
   [map]="verify/proof/test_source_fault.cpp verify/proof/maps/prove_map_residues.cpp"
   [quads]="verify/proof/maps/map_test.cpp fast/mesh/adjacency.cpp fast/mesh/cut_mesh.cpp
-    fast/mesh/sharpness.cpp fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp"
+    fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp"
   [shipped]="verify/proof/bounds/bounds_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp
     fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/rules/quad_limit.cpp"
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"
-  [quadbits]="fast/stream/host/quad_row_stream_test.cpp fast/stream/host/quad_row_stream.cpp fast/stream/gather/rings.cpp
+  [quadbits]="fast/stream/host/quad_row_stream_test.cpp fast/stream/host/row_stream.cpp fast/stream/gather/rings.cpp
     fast/stream/kernel/quad_targets.cpp"
   [parts]="fast/stream/host/frame_test.cpp fast/window/tessellator.cpp fast/plan/crack.cpp"
   [darts]="fast/rules/ring_test.cpp fast/rules/quad_limit.cpp")

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 
-#include "fast/stream/gather/alone_impl.h"
 #include "fast/window/triangle_lattice.h"
 
 namespace limitcheck::fast::row_stream {
@@ -25,27 +24,25 @@ CutGrids::CutGrids(const TriangleMesh& mesh)
 }
 
 template <class Put>
-void CutGrids::rows(Window& window, const Grid& grid, int depth, Order order, Put&& put) const {
+void CutGrids::run(Window& window, const Grid& grid, int depth, Order order, Put&& put) const {
   using Double = SurfaceVertex<double>;
   const bool from_a = order == Order::kFromA;
   const int size = 1 << depth;
   if (grid.edge0 < 0) {  // a face alone: its points above the diagonal; those below it are never shown
-    std::vector<Double> whole(static_cast<std::size_t>((size + 1) * (size + 1)));
-    const auto at = [&](int row, int column) -> Double& {
-      return whole[static_cast<std::size_t>(row * (size + 1) + column)];
-    };
-    TriangleLattice<double>(depth).run(prepared_, grid.face0, depth, [&](int row, const Double* strip) {
-      for (int k = 0; k < 2 * (size - row) + 1; ++k) at(size - row - k % 2, k / 2) = strip[k];
-    });
-    for (int j = 0; j <= size; ++j)
-      put(j, [&](int i) -> const Double& { return from_a ? at(j, i) : at(size - j, size - i); });
-    return;
+    for (int k = 0; k < (size + 1) * (size + 1); ++k) put(k / (size + 1), k % (size + 1), Double{});
+    return TriangleLattice<double>(depth).run(
+        prepared_, grid.face0, depth, [&](int row, const Double* strip) {
+          for (int q = 0; q < 2 * (size - row) + 1; ++q) {
+            const int j = size - row - q % 2, i = q / 2;
+            from_a ? put(j, i, strip[q]) : put(size - j, size - i, strip[q]);
+          }
+        });
   }
   // The window's rows come from its upper right corner, from right to left.
   const std::int32_t ac = 3 * grid.face0 + grid.edge0;
   window.run(prepared_, from_a ? adjacency().twin(ac) : ac, depth, [&](int row, const Double* strip) {
-    for (int j = row == 0 ? 0 : row + 1; j <= row + 1; ++j)
-      put(j, [&](int i) -> const Double& { return strip[2 * (size - i) + (j - row)]; });
+    const int step = row == 0 ? 1 : 2;  // those of the strip before are there
+    for (int q = step - 1; q < 2 * size + 2; q += step) put(row + q % 2, size - q / 2, strip[q]);
   });
 }
 

@@ -20,7 +20,6 @@
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
 #include "fast/plan/pairing.h"
-#include "fast/stream/quad_row_stream.h"
 #include "fast/stream/row_stream.h"
 #include "fast/test_support/quad_meshes.h"
 
@@ -72,7 +71,7 @@ struct Cut {
 struct SemiSharpAndCut {
   using Mesh = QuadMesh;
   using Stream = QuadRowStream;
-  using View = QuadRowView;
+  using View = RowView;
   using Items = std::vector<std::int32_t>;
   static constexpr int kSides = 4;
   static constexpr std::int64_t kCompared = 1'000'000;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "fast/mesh/vec3.h"
-#include "fast/stream/gather/quad_rings_impl.h"
 #include "fast/stream/gather/rings_impl.h"
 
 namespace limitcheck::fast::row_stream {

@@ -35,8 +35,7 @@ class NumberStream {
   using T = typename N::Scalar;
 
   /// The adjacency must outlive this.
-  NumberStream(const Adjacency& adjacency, PlacedPoints<T> points)
-      : adjacency_(adjacency), rings_(adjacency, std::move(points)) {}
+  NumberStream(const Adjacency& adjacency, PlacedPoints<T> points) : rings_(adjacency, std::move(points)) {}
   /// T float or double.
   NumberStream(const data::ControlMesh& mesh, const Adjacency& adjacency)
       : NumberStream(adjacency, place<T>(mesh)) {}
@@ -57,7 +56,7 @@ class NumberStream {
     std::vector<T> input(static_cast<std::size_t>(input_size(depth))),
         work(static_cast<std::size_t>(work_size(depth)));
     for (std::size_t p = 0; p < grids.size(); ++p, out += 6 * side * side) {
-      gather(adjacency_, rings_, grids.subspan(p, 1), depth, 1, input.data());
+      gather(rings_, grids.subspan(p, 1), depth, 1, input.data());
       const Target<T> target{out, 0, 6 * side, nullptr, nullptr};
       generic::Stream<N>(input.data(), depth, rings_.placement(), work.data(), {target}).run();
     }
@@ -71,7 +70,7 @@ class NumberStream {
         work(static_cast<std::size_t>(edge_work_size(depth)));
     generic::EdgeStream<N> strip(depth, rings_.placement(), work.data());
     for (std::size_t e = 0; e < half_edges.size(); ++e, out += edge_output_size(depth)) {
-      gather_edges(adjacency_, rings_, half_edges.subspan(e, 1), depth, 1, input.data());
+      gather_edges(rings_, half_edges.subspan(e, 1), depth, 1, input.data());
       strip.scatter(input.data(), 0, input.data() + edge_block_size(depth), 0, generic::LaneRow<N>{out, 0});
     }
   }
@@ -86,7 +85,6 @@ class NumberStream {
     return placed;
   }
 
-  const Adjacency& adjacency_;
   BasicLoopRings<N> rings_;
 };
 

@@ -13,7 +13,7 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "fast/frame/patch.h"
-#include "fast/stream/gather/quad_batch.h"
+#include "fast/stream/gather/batch.h"
 #include "fast/stream/host/number_stream.h"
 #include "fast/stream/kernel/kernel.h"
 #include "fast/test_support/refined_limits.h"

@@ -19,7 +19,6 @@
 #include "data/generators/sharp_meshes.h"
 #include "fast/frame/stores.h"
 #include "fast/stream/kernel/output_targets.h"
-#include "fast/stream/quad_row_stream.h"
 #include "fast/stream/row_stream.h"
 #include "fast/test_support/quad_meshes.h"
 #include "fast/test_support/shared_points.h"

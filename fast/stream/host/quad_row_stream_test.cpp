@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fast/stream/quad_row_stream.h"
+#include "fast/stream/row_stream.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
-#include "fast/stream/gather/quad_batch.h"
+#include "fast/stream/gather/batch.h"
 #include "fast/stream/kernel/kernel.h"
 #include "fast/test_support/quad_meshes.h"
 #include "fast/test_support/refined_limits.h"

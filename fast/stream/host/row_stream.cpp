@@ -7,9 +7,12 @@
 #include <cstring>
 #include <new>
 #include <optional>
+#include <utility>
 
+#include "data/error.h"
 #include "fast/stream/gather/alone.h"
-#include "fast/stream/host/rows.h"
+#include "fast/stream/gather/batch.h"
+#include "fast/stream/kernel/output_targets.h"
 
 namespace limitcheck::fast::row_stream {
 
@@ -33,10 +36,6 @@ void Workspace::grow(int input_size, int work_size, int lanes) {
   work.grow(static_cast<std::size_t>(lanes * work_size));
 }
 
-void Workspace::prepare(int depth, int lanes) {
-  grow(input_size(checked(depth)), work_size(depth), lanes);
-}
-
 RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) {
   // A whole number of cache lines.
   const std::size_t pitch = (6 * static_cast<std::size_t>(side(depth)) + 15) / 16 * 16;
@@ -46,137 +45,368 @@ RowBuffer RowBuffer::in(AlignedFloats& memory, int depth, int lanes, Kept kept) 
           static_cast<int>(kept)};
 }
 
+namespace {
+
+int checked(int depth) {
+  if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
+  return depth;
+}
+
+// What is evaluated together: items of one class, and which of the caller's list they are.
+template <class T>
+struct Batch {
+  QuadClass kind;
+  std::span<const T> items;
+  std::size_t first;
+  const std::uint32_t* index = nullptr;
+
+  bool alone() const { return kind == QuadClass::kSemiSharp; }
+  std::size_t number(std::size_t lane) const { return index != nullptr ? index[lane] : first + lane; }
+};
+
+// One for each lane; those beyond the last item repeat it.
+using LanePlaces = std::array<float*, kMaxLanes>;
+template <class At>
+LanePlaces places_of(std::size_t items, const At& at) {
+  LanePlaces lane;
+  for (std::size_t k = 0; k < lane.size(); ++k) lane[k] = &at(std::min(k, items - 1))->position.x;
+  return lane;
+}
+
+// Where item i begins.
+auto one_after_the_other(Vertex* out, int depth) {
+  const auto n = static_cast<std::size_t>(side(depth));
+  return [out, size = n * n](std::size_t i) { return out + i * size; };
+}
+
+// What a call of a stream works with.
+template <class Scheme>
+struct CallOf {
+  using Items = Batch<typename Scheme::Item>;
+
+  const typename Scheme::Kernel& kernel;
+  const typename Scheme::Rings& rings;
+  const typename Scheme::Alone* touched;
+  int depth;
+  Workspace& workspace;
+  Order order = Order::kFromA;
+
+  float* input() const { return workspace.input.data(); }
+  float* work() const { return workspace.work.data(); }
+  void grow(int input_size, int work_size) const { workspace.grow(input_size, work_size, kernel.lanes); }
+};
+
+// And how the schemes differ in that.
+template <class Scheme>
+struct Call;
+
+template <>
+struct Call<LoopStreams> : CallOf<LoopStreams> {
+  static constexpr bool kAnyPlaces = false;  // the lanes of a kernel lie at equal distances
+
+  void prepare() const { grow(input_size(checked(depth)), work_size(depth)); }
+  void prepare_edges() const { grow(edge_input_size(checked(depth)), edge_work_size(depth)); }
+
+  // body(batch) for parts of a list of grids or half-edges; those next to a cut come one by one.
+  template <class T, class Body>
+  void for_each_part(std::span<const T> list, const Body& body) const {
+    for (std::size_t first = 0, count; first < list.size(); first += count) {
+      const auto rest = list.subspan(first);
+      count = std::min(static_cast<std::size_t>(kernel.lanes), rest.size());
+      QuadClass kind = QuadClass::kClosed;
+      if (touched != nullptr) {
+        const auto alone = [&](const T& of) { return touched->touches(of); };
+        count = std::find_if(rest.begin(), rest.begin() + count, alone) - rest.begin();
+        if (count == 0) kind = QuadClass::kSemiSharp, count = 1;
+      }
+      body(Batch<T>{kind, rest.first(count), first});
+    }
+  }
+  template <class Body>
+  void for_each_batch(std::span<const Grid> grids, const Body& body) const {
+    for_each_part(grids, body);
+  }
+  template <class Body>
+  void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
+    for_each_part(half_edges, body);
+  }
+
+  void run(const Items& batch, const QuadTarget<float>& to) const {
+    gather(rings, batch.items, depth, kernel.lanes, input(), order);
+    const Target<float> target{to.lane[0], to.lane[1] - to.lane[0], to.row_stride, to.row, to.context,
+                               to.row_mask};
+    kernel.run(input(), depth, rings.placement(), work(), target);
+  }
+  void run_lines(const Items& batch, float* const* lane, Stores stores) const {
+    gather(rings, batch.items, depth, kernel.lanes, input(), order);
+    kernel.run_lines(input(), depth, rings.placement(), work(), lane, stores);
+  }
+  // Edge e to at(e); these places follow each other.
+  template <class At>
+  void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {
+    gather_edges(rings, half_edges, depth, kernel.lanes, input());
+    // The lanes beyond the last edge write too, but not into the caller's memory.
+    const bool full = half_edges.size() == static_cast<std::size_t>(kernel.lanes);
+    const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
+    kernel.run_edges(input(), depth, rings.placement(), work(), full ? &at(0)->position.x : rest.base,
+                     full ? edge_output_size(depth) : rest.pitch);
+    for (std::size_t e = 0; e < half_edges.size() && !full; ++e)
+      std::copy_n(rest.row(e, 0), side(depth), at(e));
+  }
+};
+
+template <>
+struct Call<QuadStreams> : CallOf<QuadStreams> {
+  static constexpr bool kAnyPlaces = true;
+
+  void prepare() const { grow(quad_input_size(checked(depth)), quad_work_size(depth)); }
+  void prepare_edges() const { prepare(); }
+
+  // body(batch) for quads or half-edges of one class; those next to something semi-sharp come one by one.
+  template <class KindOf, class Body>
+  void by_class(std::span<const std::int32_t> list, const KindOf& kind_of, const Body& body) const {
+    struct Queue {
+      std::array<std::int32_t, kMaxLanes> items;
+      std::array<std::uint32_t, kMaxLanes> index;
+      std::size_t count = 0;
+    };
+    std::array<Queue, 4> queues;
+    const auto empty = [&](QuadClass kind, Queue& queue) {
+      body(Items{kind, {queue.items.data(), queue.count}, 0, queue.index.data()});
+      queue.count = 0;
+    };
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const QuadClass kind = kind_of(list[i]);
+      Queue& queue = queues[static_cast<std::size_t>(kind)];
+      queue.items[queue.count] = list[i];
+      queue.index[queue.count++] = static_cast<std::uint32_t>(i);
+      if (queue.count == static_cast<std::size_t>(kind == QuadClass::kSemiSharp ? 1 : kernel.lanes))
+        empty(kind, queue);
+    }
+    for (const QuadClass kind : {QuadClass::kRegular, QuadClass::kClosed, QuadClass::kOpen})
+      if (Queue& queue = queues[static_cast<std::size_t>(kind)]; queue.count > 0) empty(kind, queue);
+  }
+  template <class Body>
+  void for_each_batch(std::span<const std::int32_t> faces, const Body& body) const {
+    by_class(
+        faces, [&](std::int32_t face) { return rings.kind(face); }, body);
+  }
+  template <class Body>
+  void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
+    const auto kind_of = [&](std::int32_t h) {
+      return rings.touches_semi_sharp(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
+    };
+    by_class(half_edges, kind_of, body);
+  }
+
+  QuadBatch<float> gathered(const Items& batch) const {
+    const auto gather = batch.kind == QuadClass::kRegular ? gather_patches<float> : gather_quads<float>;
+    return gather(rings, batch.items, depth, kernel.lanes, input(), order);
+  }
+  void run(const Items& batch, const QuadTarget<float>& to) const {
+    (batch.kind == QuadClass::kRegular ? kernel.patches : kernel.quads)(gathered(batch), rings.placement(),
+                                                                        work(), to);
+  }
+  void run_lines(const Items& batch, float* const* lane, Stores stores) const {
+    (batch.kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
+        gathered(batch), rings.placement(), work(), lane, stores);
+  }
+  template <class At>
+  void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {
+    const LanePlaces lane = places_of(half_edges.size(), at);
+    const auto batch = gather_sides<float>(rings, half_edges, depth, kernel.lanes, input());
+    kernel.sides(batch, rings.placement(), work(), {lane.data(), 0, nullptr, nullptr});
+  }
+};
+
+// The rows of batches in a buffer, and what a kernel calls after each.
+class Rows {
+ public:
+  template <class C>
+  Rows(const C& call, Kept kept, void (*visit)(void*, const RowView&), void* context)
+      : view_{call.depth, 0, RowBuffer::in(call.workspace.row, call.depth, call.kernel.lanes, kept)},
+        visit_(visit),
+        context_(context) {
+    const auto last = static_cast<std::ptrdiff_t>(call.kernel.lanes - 1);
+    for (std::ptrdiff_t k = 0; k < kMaxLanes; ++k)
+      lane_[k] = view_.rows.base + std::min(k, last) * view_.rows.pitch;
+  }
+
+  /// For a batch.
+  template <class Items>
+  QuadTarget<float> target(const Items& batch) {
+    view_.grids = batch.items.size(), view_.first = batch.first, view_.index = batch.index;
+    return {lane_.data(), view_.rows.stride, visit_ != nullptr ? &row : nullptr, this, view_.rows.mask};
+  }
+
+ private:
+  static void row(void* self, int j) {
+    auto& rows = *static_cast<Rows*>(self);
+    rows.view_.j = j;
+    rows.visit_(rows.context_, rows.view_);
+  }
+
+  RowView view_;
+  void (*visit_)(void*, const RowView&);
+  void* context_;
+  LanePlaces lane_;
+};
+
+// Rows of whole items to their places: that of number i of the list from at(i) on.
+template <class At>
+class Runs {
+ public:
+  Runs(const At& at, Stores stores) : at_(at), stores_(stores) {}
+
+  static void visit(void* context, const RowView& view) {
+    Runs& runs = *static_cast<Runs*>(context);
+    const auto n = static_cast<std::size_t>(side(view.depth)), j = static_cast<std::size_t>(view.j);
+    for (std::size_t lane = 0; lane < view.size(); ++lane) {
+      if (runs.stores_ == Stores::kOrdinary) {
+        std::copy_n(view.vertices(lane), n, runs.at_(view.number(lane)) + j * n);
+        continue;
+      }
+      LineStream& lines = runs.lines_[lane];
+      if (j == 0) lines.start(reinterpret_cast<std::byte*>(runs.at_(view.number(lane))));
+      lines.append(reinterpret_cast<const std::byte*>(view.vertices(lane)), n * sizeof(Vertex));
+      if (j + 1 == n) lines.finish();
+    }
+  }
+
+ private:
+  const At& at_;
+  Stores stores_;
+  std::array<LineStream, kMaxLanes> lines_ = {};
+};
+
+template <class Scheme>
+struct Evaluation : Call<Scheme> {
+  using Items = typename Call<Scheme>::Items;
+  using Call<Scheme>::depth, Call<Scheme>::kernel, Call<Scheme>::order, Call<Scheme>::rings;
+
+  AloneEvaluator<typename Scheme::Alone>& alone() {
+    if (!alone_) alone_.emplace(*this->touched, rings, depth);
+    return *alone_;
+  }
+  void evaluate(const Items& batch, const QuadTarget<float>& to) {
+    if (!batch.alone()) return this->run(batch, to);
+    alone().grid(batch.items.front(), order, to, [&](std::int32_t h, Vertex* out) {
+      this->run_edges({&h, 1}, [&](std::size_t) { return out; });
+    });
+  }
+  // Each item to its place at(i), in whole cache lines if the kernel has them and `stores` is given.
+  template <class At>
+  void to_places(std::span<const typename Scheme::Item> items, const At& at, std::optional<Stores> stores) {
+    this->prepare();
+    Runs<At> runs(at, stores.value_or(Stores::kOrdinary));
+    this->for_each_batch(items, [&](const Items& batch) {
+      const LanePlaces lane =
+          places_of(batch.items.size(), [&](std::size_t k) { return at(batch.number(k)); });
+      const bool full = batch.items.size() == static_cast<std::size_t>(kernel.lanes);
+      if (stores && Scheme::has_lines(kernel) && !batch.alone())
+        return this->run_lines(batch, lane.data(), *stores);
+      // The lanes beyond the last grid would write too, into the caller's memory.
+      if (stores != Stores::kPastCaches && (Call<Scheme>::kAnyPlaces || (full && !stores)))
+        return evaluate(batch, {lane.data(), 6 * side(depth), nullptr, nullptr});
+      evaluate(batch, Rows(*this, Kept::kOneRow, &runs.visit, &runs).target(batch));
+    });
+  }
+
+  std::optional<AloneEvaluator<typename Scheme::Alone>> alone_ = {};
+};
+
+}  // namespace
+
+template <class Scheme>
+BasicRowStream<Scheme>::BasicRowStream(const Kernel& kernel, Rings rings, std::shared_ptr<const Alone> alone)
+    : kernel_(kernel), rings_(std::move(rings)), alone_(std::move(alone)) {}
+
+template <class Scheme>
+void BasicRowStream<Scheme>::rows(std::span<const Item> items, int depth, Workspace& workspace,
+                                  void (*visit)(void*, const RowView&), void* context, Order order,
+                                  Kept kept) const {
+  Evaluation<Scheme> evaluation{{{kernel_, rings_, alone_.get(), depth, workspace, order}}};
+  evaluation.prepare();
+  Rows rows(evaluation, kept, visit, context);
+  evaluation.for_each_batch(items,
+                            [&](const auto& batch) { evaluation.evaluate(batch, rows.target(batch)); });
+}
+
+template <class Scheme>
+void BasicRowStream<Scheme>::whole(std::span<const Item> items, int depth, Workspace& workspace, Vertex* out,
+                                   const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  Evaluation<Scheme>{{{kernel, rings_, alone_.get(), depth, workspace}}}.to_places(
+      items, one_after_the_other(out, depth), std::nullopt);
+}
+
+template <class Scheme>
+void BasicRowStream<Scheme>::put(std::span<const Item> items, int depth, Workspace& workspace,
+                                 Vertex* const* places, Order order, Stores stores) const {
+  Evaluation<Scheme>{{{kernel_, rings_, alone_.get(), depth, workspace, order}}}.to_places(
+      items, [&](std::size_t i) { return places[i]; }, stores);
+}
+
+template <class Scheme>
+void BasicRowStream<Scheme>::streamed(std::span<const Item> items, int depth, Workspace& workspace,
+                                      Vertex* out) const {
+  Evaluation<Scheme>{{{kernel_, rings_, alone_.get(), depth, workspace}}}.to_places(
+      items, one_after_the_other(out, depth), Stores::kPastCaches);
+  fence(Stores::kPastCaches);
+}
+
+template <class Scheme>
+void BasicRowStream<Scheme>::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace,
+                                   Vertex* out, const Kernel* other) const {
+  const Kernel& kernel = other != nullptr ? *other : kernel_;
+  Evaluation<Scheme> evaluation{{{kernel, rings_, alone_.get(), depth, workspace}}};
+  evaluation.prepare_edges();
+  const auto n = static_cast<std::size_t>(side(depth));
+  evaluation.for_each_edges(half_edges, [&](const Batch<std::int32_t>& batch) {
+    const auto at = [&](std::size_t k) { return out + n * batch.number(k); };
+    if (batch.alone()) return evaluation.alone().edge(batch.items.front(), at(0));
+    evaluation.run_edges(batch.items, at);
+  });
+}
+
+template class BasicRowStream<LoopStreams>;
+template class BasicRowStream<QuadStreams>;
+
 RowStream::RowStream(const data::ControlMesh& mesh, const Adjacency& adjacency, const Kernel& kernel)
-    : adjacency_(adjacency), kernel_(kernel), rings_(mesh, adjacency) {}
+    : BasicRowStream(kernel, LoopRings(mesh, adjacency), nullptr) {}
 
 RowStream::RowStream(const TriangleMesh& mesh, const Kernel& kernel)
-    : adjacency_(mesh.adjacency()),
-      kernel_(kernel),
-      rings_(mesh.points(), mesh.adjacency(), mesh.kinds()),
-      cut_(mesh.is_cut() ? std::make_shared<const CutGrids>(mesh) : nullptr) {}
-
-template <class T>
-std::size_t RowStream::together(std::span<const T> list, std::size_t most) const {
-  std::size_t count = std::min(most, list.size());
-  if (!cut_) return count;
-  const auto alone = [&](const T& of) { return cut_->touches(of); };
-  return std::max<std::ptrdiff_t>(1, std::find_if(list.begin(), list.begin() + count, alone) - list.begin());
-}
+    : BasicRowStream(kernel, LoopRings(mesh.points(), mesh.adjacency(), mesh.kinds()),
+                     mesh.is_cut() ? std::make_shared<const CutGrids>(mesh) : nullptr) {}
 
 void RowStream::move_points(const TriangleMesh& mesh) {
-  rings_.move_points(adjacency_, place<float>(mesh.points()));
-  if (cut_) cut_ = std::make_shared<const CutGrids>(mesh);
+  rings_.move_points(place<float>(mesh.points()));
+  if (alone_) alone_ = std::make_shared<const CutGrids>(mesh);
 }
 
-void RowStream::rows(std::span<const Grid> grids, int depth, Workspace& workspace,
-                     void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
-  batches(kernel_, grids, depth, workspace, visit, context, order, kept);
+QuadRowStream::QuadRowStream(const QuadMesh& mesh, const QuadKernel& kernel)
+    : BasicRowStream(kernel, QuadRings(mesh),
+                     mesh.semi_sharp() ? std::make_shared<const SemiSharpQuads>(mesh) : nullptr) {}
+
+void QuadRowStream::move_points(const QuadMesh& mesh) {
+  rings_ = QuadRings(mesh);
+  if (alone_) alone_ = std::make_shared<const SemiSharpQuads>(mesh);
 }
 
-void RowStream::batches(const Kernel& kernel, std::span<const Grid> grids, int depth, Workspace& workspace,
-                        void (*visit)(void*, const RowView&), void* context, Order order, Kept kept) const {
-  const auto lanes = static_cast<std::size_t>(kernel.lanes);
-  workspace.prepare(depth, kernel.lanes);
-  RowVisitor<RowView> rows{
-      {{depth, 0, RowBuffer::in(workspace.row, depth, kernel.lanes, kept)}, {}, 0}, visit, context};
-  RowView& view = rows.view;
-  const Target<float> target{view.rows.base, view.rows.pitch, view.rows.stride,
-                             rows.call(),    &rows,           view.rows.mask};
-  std::optional<AloneEvaluator<CutGrids>> alone;
-  for (view.first = 0; view.first < grids.size(); view.first += view.size()) {
-    view.grids = grids.subspan(view.first, together(grids.subspan(view.first), lanes));
-    if (cut_ && cut_->touches(view.grids.front())) {
-      if (!alone) alone.emplace(*cut_, rings_, depth);
-      alone->grid(view.grids.front(), order, target, [&](std::int32_t h, Vertex* out) {
-        edges({&h, 1}, depth, workspace, out, &kernel);
-      });
-      continue;
-    }
-    gather(adjacency_, rings_, view.grids, depth, kernel.lanes, workspace.input.data(), order);
-    kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
+std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys;  // by class and valences
+  keys.reserve(faces.size());
+  for (const std::int32_t f : faces) {
+    auto key = static_cast<std::uint64_t>(rings_.kind(f));
+    for (int k = 0; k < 4; ++k)
+      key = key << 12 | static_cast<std::uint64_t>(std::min(rings_.corner(4 * f + k).entries, 4095));
+    keys.emplace_back(key, f);
   }
-}
-
-void RowStream::whole(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out,
-                      const Kernel* other) const {
-  const Kernel& kernel = other != nullptr ? *other : kernel_;
-  const auto lanes = static_cast<std::size_t>(kernel.lanes);
-  const auto grid_size = static_cast<std::size_t>(side(depth)) * static_cast<std::size_t>(side(depth));
-  workspace.prepare(depth, kernel.lanes);
-
-  const std::size_t full = cut_ ? 0 : grids.size() / lanes * lanes;
-  for (std::size_t first = 0; first < full; first += lanes) {
-    gather(adjacency_, rings_, grids.subspan(first, lanes), depth, kernel.lanes, workspace.input.data(),
-           Order::kFromA);
-    const Target<float> target{&out[first * grid_size].position.x, 6 * static_cast<std::ptrdiff_t>(grid_size),
-                               6 * side(depth), nullptr, nullptr};
-    kernel.run(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), target);
-  }
-  // The lanes beyond the last grid write too, but not into the caller's memory.
-  const auto at = one_after_the_other(out + full * grid_size, depth);
-  Runs<RowView, decltype(at)> rest{at, Stores::kOrdinary};
-  batches(kernel, grids.subspan(full), depth, workspace, &rest.visit, &rest, Order::kFromA, Kept::kOneRow);
-}
-
-void RowStream::edges(std::span<const std::int32_t> half_edges, int depth, Workspace& workspace, Vertex* out,
-                      const Kernel* other) const {
-  const Kernel& kernel = other != nullptr ? *other : kernel_;
-  const auto lanes = static_cast<std::size_t>(kernel.lanes);
-  const auto length = static_cast<std::size_t>(side(depth));
-  workspace.grow(edge_input_size(checked(depth)), edge_work_size(depth), kernel.lanes);
-  const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
-
-  std::optional<AloneEvaluator<CutGrids>> alone;
-  std::size_t first = 0;
-  for (std::span<const std::int32_t> batch; first < half_edges.size(); first += batch.size()) {
-    batch = half_edges.subspan(first, together(half_edges.subspan(first), lanes));
-    if (cut_ && cut_->touches(batch.front())) {
-      if (!alone) alone.emplace(*cut_, rings_, depth);
-      alone->edge(batch.front(), out + first * length);
-      continue;
-    }
-    gather_edges(adjacency_, rings_, batch, depth, kernel.lanes, workspace.input.data());
-    // The lanes beyond the last edge write too, but not into the caller's memory.
-    const bool full = batch.size() == lanes;
-    Vertex* to = out + first * length;
-    kernel.run_edges(workspace.input.data(), depth, rings_.placement(), workspace.work.data(),
-                     full ? &to->position.x : rest.base,
-                     full ? 6 * static_cast<std::ptrdiff_t>(length) : rest.pitch);
-    for (std::size_t e = 0; e < batch.size() && !full; ++e)
-      std::copy_n(rest.row(e, 0), length, to + e * length);
-  }
-}
-
-template <class At>
-void RowStream::put_at(const At& at, std::span<const Grid> grids, int depth, Workspace& workspace,
-                       Order order, Stores stores) const {
-  workspace.prepare(depth, kernel_.lanes);
-  const auto lanes = static_cast<std::size_t>(kernel_.lanes);
-  std::size_t first = 0;
-  for (std::span<const Grid> batch; first < grids.size(); first += batch.size()) {
-    batch = grids.subspan(first, together(grids.subspan(first), lanes));
-    if (kernel_.run_lines == nullptr || (cut_ && cut_->touches(batch.front()))) {
-      const auto place = [&](std::size_t i) { return at(first + i); };
-      Runs<RowView, decltype(place)> runs{place, stores};
-      rows(batch, depth, workspace, &runs.visit, &runs, order);
-      continue;
-    }
-    std::array<float*, kMaxLanes> lane;  // those beyond the last grid repeat it, place and all
-    for (std::size_t k = 0; k < lanes; ++k) lane[k] = &at(first + std::min(k, batch.size() - 1))->position.x;
-    gather(adjacency_, rings_, batch, depth, kernel_.lanes, workspace.input.data(), order);
-    kernel_.run_lines(workspace.input.data(), depth, rings_.placement(), workspace.work.data(), lane.data(),
-                      stores);
-  }
-}
-
-void RowStream::put(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* const* places,
-                    Order order, Stores stores) const {
-  put_at([&](std::size_t i) { return places[i]; }, grids, depth, workspace, order, stores);
-}
-
-void RowStream::streamed(std::span<const Grid> grids, int depth, Workspace& workspace, Vertex* out) const {
-  put_at(one_after_the_other(out, depth), grids, depth, workspace, Order::kFromA, Stores::kPastCaches);
-  fence(Stores::kPastCaches);
+  std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::int32_t> order;
+  order.reserve(faces.size());
+  for (const auto& key : keys) order.push_back(key.second);
+  return order;
 }
 
 }  // namespace limitcheck::fast::row_stream

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "fast/frame/scheme_frames.h"
-#include "fast/stream/host/quad_stream_worker.h"
 #include "fast/stream/host/stream_worker.h"
 #include "fast/stream/kernel/output_targets.h"
 
@@ -29,8 +28,8 @@ static_assert(kMaxDepth == kDeepest);
 
 // The variant of four lanes of the same instructions, or the kernel itself.
 template <class Kernel>
-const Kernel& with_few_lanes(const Kernel& kernel, const Kernel* (*find)(const char*)) {
-  const Kernel* few = kernel.lanes > 4 ? find((std::string(kernel.name) + "/4").c_str()) : nullptr;
+const Kernel& with_few_lanes(const Kernel& kernel, std::span<const Kernel> all) {
+  const Kernel* few = kernel.lanes > 4 ? find_variant(all, std::string(kernel.name) + "/4") : nullptr;
   return few != nullptr ? *few : kernel;
 }
 
@@ -52,48 +51,56 @@ struct StreamHooks {
   ~StreamHooks() = default;
 };
 
-// Frames of a scheme: Frames::make_batches(first, last, skipped, placed) sorts patches into `batches` and returns what
-// their workers read.
-template <class Frames, class Scheme, class Worker>
+// Frames of a scheme, which its workers read: Frames::make_batches(first, last, skipped) sorts patches into `batches`.
+template <class Frames, class Scheme, class Stream, class Worker>
 struct StreamFrames : SchemeFrames<float, Scheme>, StreamHooks {
   using Base = SchemeFrames<float, Scheme>;
-  using Base::arena, Base::options, Base::patches, Base::placement, Base::stores;
-  using Base::Base;
+  using Kernel = typename Stream::Kernel;
+  using Base::arena, Base::cut_mesh, Base::options, Base::patches, Base::placement, Base::stores;
+
+  StreamFrames(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel,
+               std::span<const Kernel> all)
+      : Base(given, with), stream(cut_mesh, kernel), few_lanes(with_few_lanes(kernel, all)) {}
+
+  void points_moved() override {
+    Base::points_moved();
+    stream.move_points(cut_mesh);
+  }
+  SurfaceVertex<float> limit(std::int32_t v) const override { return stream.limit(v); }
+  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
 
   void prepare() override { worker_bytes = 0; }
   void draw(std::size_t first, std::size_t last, DrawList<float>& out) override {
-    stores = this->stores_of(out);
+    stores = this->stores_of(out), placed = false;
     run(first, last, [&](std::size_t i) { return this->draw_writer(first, i, out); });
   }
   void index(const IndexLayout& layout, IndexedMesh<float>& out) override {
-    stores = Stores::kOrdinary;
+    stores = Stores::kOrdinary, placed = false;
     run(0, patches.size(), [&](std::size_t i) { return this->index_writer(i, layout, out); });
   }
   void write_patches(std::span<const BlockOffset> places, const PatchTarget<float>& out) override {
     PatchTarget<float> target = out;
     target.compact_row = &compact;
-    const bool placed = target.takes_vertices() && placement.is_identity();
+    placed = target.takes_vertices() && placement.is_identity();
     std::size_t points = 0;  // of patches that are placed
     for (std::size_t i = 0; i < places.size() && placed; ++i)
       if (places[i].fresh) points += placed_points(patches[i]);
     // Past the caches row by row is slower than through them.
-    const bool lines = static_cast<Frames&>(*this).has_lines();
-    stores = lines ? stores_for(sizeof(Vertex) * points) : Stores::kOrdinary;
+    stores = stream.has_lines() ? stores_for(sizeof(Vertex) * points) : Stores::kOrdinary;
     run(
         0, patches.size(),
-        [&](std::size_t i) { return this->patch_writer(patches[i], places[i].first, target); }, places,
-        placed);
+        [&](std::size_t i) { return this->patch_writer(patches[i], places[i].first, target); }, places);
   }
 
   // Evaluates patches first .. last - 1, but those whose places are not fresh, in parallel, each into make_writer(i); a
   // writer must not care about the order of patches. Workers, one for each thread of the arena, are kept from frame to
-  // frame. placed: a writer has a place for each part that goes together with others.
+  // frame.
   template <class MakeWriter>
   void run(std::size_t first, std::size_t last, MakeWriter&& make_writer,
-           std::span<const BlockOffset> places = {}, bool placed = false) {
+           std::span<const BlockOffset> places = {}) {
     const auto skipped = [&](std::size_t i) { return !places.empty() && !places[i].fresh; };
     auto& frames = static_cast<Frames&>(*this);
-    const auto frame = frames.make_batches(first, last, skipped, placed);
+    frames.make_batches(first, last, skipped);
     const auto& batches = frames.batches;
     std::size_t total = 0;
     for (const auto& batch : batches) total += batch.items.size();
@@ -102,8 +109,8 @@ struct StreamFrames : SchemeFrames<float, Scheme>, StreamHooks {
     std::mutex telling;
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, batches.size(), [&](std::size_t b) {
-        workers[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())].run(frame, batches[b],
-                                                                                            make_writer);
+        workers[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())].run(
+            frames, batches[b], make_writer);
         fence(stores);
         const std::size_t finished = done += batches[b].items.size();
         if (progress && telling.try_lock()) {
@@ -115,18 +122,19 @@ struct StreamFrames : SchemeFrames<float, Scheme>, StreamHooks {
     for (const Worker& worker : workers) worker_bytes = std::max(worker_bytes, worker.bytes());
   }
 
+  Stream stream;
+  const Kernel& few_lanes;  // for what has to be kept whole, and for single faces
+  bool placed = false;      // a writer has a place for each part that goes together with others
   std::vector<Worker> workers;
 };
 
-struct LoopStreamFrames final : StreamFrames<LoopStreamFrames, LoopScheme, LoopStreamWorker> {
+struct LoopStreamFrames final
+    : StreamFrames<LoopStreamFrames, LoopScheme, RowStream, LoopStreamWorker<LoopStreamFrames>> {
   LoopStreamFrames(const data::ControlMesh& given, const TessellatorOptions& with, const Kernel& kernel)
-      : StreamFrames(given, with),
-        stream(triangles, kernel),
-        few_lanes(with_few_lanes(kernel, &find_kernel)) {}
+      : StreamFrames(given, with, kernel, kernels()) {}
 
   void points_moved() override {
-    SchemeFrames::points_moved();
-    stream.move_points(triangles);
+    StreamFrames::points_moved();
     if (options.cracks.centre == FanCentre::kFlatLimit) control.reset();
     if (control) control->move_points(control_points());
     centres.clear();
@@ -134,10 +142,8 @@ struct LoopStreamFrames final : StreamFrames<LoopStreamFrames, LoopScheme, LoopS
 
   void prepare() override {
     if (plan.fans > 0 && !control) {
-      if (options.cracks.centre == FanCentre::kFlatLimit)
-        control.emplace(adjacency, control_points(), triangles.kinds());
-      else
-        control.emplace(adjacency, control_points(), triangles.kinds(), PreparedMesh<float>::WithoutLimits());
+      const bool limits = options.cracks.centre == FanCentre::kFlatLimit;
+      control.emplace(adjacency, control_points(), cut_mesh.kinds(), limits);
     }
     if (plan.fans > 0) centres.resize(static_cast<std::size_t>(adjacency.face_count()));
     StreamFrames::prepare();
@@ -154,60 +160,32 @@ struct LoopStreamFrames final : StreamFrames<LoopStreamFrames, LoopScheme, LoopS
     return positions;
   }
 
-  SurfaceVertex<float> limit(std::int32_t v) const override {
-    return vertex_from(stream.rings().head(v) + CornerBlock::kLimit);
-  }
-  std::int64_t zero_normals() const override { return stream.rings().degenerate_normals(); }
-  bool has_lines() const { return stream.kernel().run_lines != nullptr; }
-
   template <class Skipped>
-  LoopStreamFrame make_batches(std::size_t first, std::size_t last, Skipped&& skipped, bool placed) {
+  void make_batches(std::size_t first, std::size_t last, Skipped&& skipped) {
     sorted.sort(patches, first, last, skipped, static_cast<std::size_t>(stream.kernel().lanes),
                 static_cast<std::size_t>(few_lanes.lanes), placed, batches);
-    return {adjacency,
-            stream,
-            few_lanes,
-            plan,
-            pairing.grids,
-            patches,
-            control ? &*control : nullptr,
-            centres,
-            options.cracks.centre,
-            stores};
   }
 
-  RowStream stream;
-  const Kernel& few_lanes;
-  std::optional<PreparedMesh<float>> control;
-  std::vector<CachedCentre> centres;
+  std::optional<PreparedMesh<float>> control;  // for the centres of fans
+  std::vector<CachedCentre> centres;           // per face, if there are fans
   SortedPatches sorted;
   std::vector<LoopBatch> batches;
 };
 
-struct QuadStreamFrames final : StreamFrames<QuadStreamFrames, QuadScheme, QuadStreamWorker> {
+struct QuadStreamFrames final
+    : StreamFrames<QuadStreamFrames, QuadScheme, QuadRowStream, QuadStreamWorker<QuadStreamFrames>> {
   QuadStreamFrames(const data::ControlMesh& given, const TessellatorOptions& with, const QuadKernel& kernel)
-      : StreamFrames(given, with),
-        stream(std::in_place, quads, kernel),
-        few_lanes(with_few_lanes(kernel, &find_quad_kernel)) {
-    std::vector<std::int32_t> all(static_cast<std::size_t>(quads.adjacency.face_count()));
+      : StreamFrames(given, with, kernel, quad_kernels()) {
+    std::vector<std::int32_t> all(static_cast<std::size_t>(cut_mesh.adjacency.face_count()));
     std::iota(all.begin(), all.end(), 0);
     rank.resize(all.size());
     std::int32_t place = 0;
-    for (const std::int32_t quad : stream->sorted(all)) rank[quad] = place++;
+    for (const std::int32_t quad : stream.sorted(all)) rank[quad] = place++;
   }
-
-  void points_moved() override {
-    SchemeFrames::points_moved();
-    stream.emplace(quads, stream->kernel());
-  }
-
-  SurfaceVertex<float> limit(std::int32_t v) const override { return stream->limit(v); }
-  std::int64_t zero_normals() const override { return stream->rings().degenerate_normals(); }
-  bool has_lines() const { return stream->kernel().quad_lines != nullptr; }
 
   // Quads of one depth and of like valences side by side, whatever faces they are parts of. In a fixed order.
   template <class Skipped>
-  QuadStreamFrame make_batches(std::size_t first, std::size_t last, Skipped&& skipped, bool placed) {
+  void make_batches(std::size_t first, std::size_t last, Skipped&& skipped) {
     const int cut = faces.cut() ? 1 : 0;
     const auto depth_of = [&](std::size_t i) {
       const bool strips = patches[i].face.display == Display::kStrips && !patches[i].corners_only();
@@ -223,9 +201,9 @@ struct QuadStreamFrames final : StreamFrames<QuadStreamFrames, QuadScheme, QuadS
     const auto key = [&](const QuadPart& p) { return std::tuple(depth_of(p.patch), rank[quad_of(p)]); };
     std::sort(parts.begin(), parts.end(),
               [&](const QuadPart& a, const QuadPart& b) { return key(a) < key(b); });
-    const auto kind_of = [&](const QuadPart& p) { return stream->rings().kind(quad_of(p)); };
+    const auto kind_of = [&](const QuadPart& p) { return stream.rings().kind(quad_of(p)); };
     batches.clear();
-    const auto lanes = static_cast<std::size_t>(stream->kernel().lanes);
+    const auto lanes = static_cast<std::size_t>(stream.kernel().lanes);
     for (std::size_t at = 0, end; at < parts.size(); at = end) {
       const int depth = depth_of(parts[at].patch);
       const QuadClass kind = kind_of(parts[at]);
@@ -234,11 +212,8 @@ struct QuadStreamFrames final : StreamFrames<QuadStreamFrames, QuadScheme, QuadS
       while (end < most && depth_of(parts[end].patch) == depth && kind_of(parts[end]) == kind) ++end;
       batches.push_back({depth, std::span<const QuadPart>(parts).subspan(at, end - at)});
     }
-    return {*stream, few_lanes, faces, plan, patches, options.cracks.centre, placed, stores};
   }
 
-  std::optional<QuadRowStream> stream;
-  const QuadKernel& few_lanes;
   std::vector<std::int32_t> rank;  // of each quad, in the order that is best for the lanes
   std::vector<QuadPart> parts;
   std::vector<QuadFrameBatch> batches;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One thread's part of a frame of triangles: the patches in batches, the borders of its repaired faces, and how the points
-// of a batch reach the writers of its patches.
+// One thread's part of a frame: of triangles, the patches in batches, the borders of its repaired faces, and how the
+// points of a batch reach the writers of its patches; and the same of quads.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/draw_writer.h"
 #include "fast/frame/patch.h"
+#include "fast/frame/quad_patch.h"
 #include "fast/stream/gather/batch.h"
 #include "fast/stream/row_stream.h"
 
@@ -145,31 +147,37 @@ class BorderPoints {
   std::vector<Vertex> points_;
 };
 
+/// take(number, row, strip) for the strip between each two rows of items. Row r of an item's own frame is row r counted
+/// from the corner that the rows come from, and its columns run the other way.
+template <class Stream, class Take>
+void strips(const Stream& stream, std::span<const typename Stream::Item> items, int depth,
+            Workspace& workspace, Order order, Take&& take) {
+  stream.rows(
+      items, depth, workspace,
+      [](void* opaque, const RowView& view) {
+        if (view.j == 0) return;
+        auto& to = *static_cast<std::remove_reference_t<Take>*>(opaque);
+        const int last = 1 << view.depth;
+        for (std::size_t lane = 0; lane < view.size(); ++lane)
+          to(view.number(lane), view.j - 1,
+             RowPair<float>{view.before(lane) + last, view.vertices(lane) + last, -1});
+      },
+      &take, order, Kept::kTwoRows);
+}
+
 /// The centre of a face's fan, once it has been evaluated.
 struct CachedCentre {
   Vertex point;
   bool known = false;
 };
 
-/// What all threads read; of `centres` each writes those of its own faces.
-struct LoopStreamFrame {
-  const Adjacency& adjacency;
-  const RowStream& stream;
-  const Kernel& few_lanes;  // for grids that have to be kept whole
-  const CrackPlan& plan;
-  std::span<const Grid> grids;
-  std::span<const LoopPatch> patches;
-  const PreparedMesh<float>* control;  // for the centres of fans; null if there are none
-  std::span<CachedCentre> centres;     // one per face, or none likewise
-  FanCentre centre;
-  Stores stores;  // of the patches that have a place each
-};
-
+/// Frame   what all threads read, see LoopStreamFrames; of its `centres` each writes those of its own faces
+template <class Frame>
 class LoopStreamWorker {
  public:
   /// make_writer(patch index) gives each patch its writer.
   template <class MakeWriter>
-  void run(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
+  void run(Frame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     using Writer = decltype(make_writer(std::size_t{}));
     if constexpr (requires(Writer writer) { writer.grid(0); }) {
       if (batch.delivery == Delivery::kPlaced) return place(frame, batch, make_writer);
@@ -195,13 +203,13 @@ class LoopStreamWorker {
   std::size_t bytes() const { return workspace_.bytes() + border_.bytes(); }
 
  private:
-  void collect(const LoopStreamFrame& frame, const LoopBatch& batch) {
+  void collect(const Frame& frame, const LoopBatch& batch) {
     grids_.clear();
-    for (const std::size_t i : batch.items) grids_.push_back(frame.grids[i]);
+    for (const std::size_t i : batch.items) grids_.push_back(frame.pairing.grids[i]);
   }
 
   template <class MakeWriter>
-  void place(const LoopStreamFrame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
+  void place(const Frame& frame, const LoopBatch& batch, MakeWriter&& make_writer) {
     collect(frame, batch);
     std::array<Vertex*, kMaxLanes> places;
     for (std::size_t lane = 0; lane < batch.items.size(); ++lane)
@@ -209,40 +217,18 @@ class LoopStreamWorker {
     frame.stream.put(grids_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
   }
 
-  // Two rows make a strip. Frames count columns from D's side, the kernel from the other.
   template <class Writer>
-  void rows(const LoopStreamFrame& frame, const LoopBatch& batch, std::vector<Writer>& writers) {
+  void rows(const Frame& frame, const LoopBatch& batch, std::vector<Writer>& writers) {
     collect(frame, batch);
-    struct Context {
-      const LoopStreamFrame& frame;
-      const LoopBatch& batch;
-      std::vector<Writer>& writers;
-    } context{frame, batch, writers};
-    frame.stream.rows(
-        grids_, batch.depth, workspace_,
-        [](void* opaque, const RowView& view) {
-          if (view.j == 0) return;
-          Context& c = *static_cast<Context*>(opaque);
-          for (std::size_t lane = 0; lane < view.size(); ++lane) {
-            const std::size_t i = view.number(lane);
-            take_rows(c.frame.patches[c.batch.items[i]], view, lane, c.batch.delivery, c.writers[i]);
-          }
-        },
-        &context, batch.delivery == Delivery::kRowsFromC ? Order::kFromC : Order::kFromA, Kept::kTwoRows);
+    const bool from_c = batch.delivery == Delivery::kRowsFromC;
+    strips(frame.stream, grids_, batch.depth, workspace_, from_c ? Order::kFromC : Order::kFromA,
+           [&](std::size_t i, int row, const RowPair<float>& strip) {
+             const LoopPatch& patch = frame.patches[batch.items[i]];
+             writers[i].strip(patch.full() ? LoopPatch::kWhole : from_c ? 0 : 1, row, strip);
+           });
   }
 
-  // Row r of either half's own frame is row r counted from the corner that the rows come from, and its
-  // columns run the other way.
-  template <class Writer>
-  static void take_rows(const LoopPatch& patch, const RowView& view, std::size_t lane, Delivery delivery,
-                        Writer& writer) {
-    const int last = 1 << view.depth;
-    const RowPair<float> strip{view.before(lane) + last, view.vertices(lane) + last, -1};
-    const int part = patch.full() ? LoopPatch::kWhole : delivery == Delivery::kRowsFromC ? 0 : 1;
-    writer.strip(part, view.j - 1, strip);
-  }
-
-  void evaluate_whole(const LoopStreamFrame& frame, const LoopBatch& batch) {
+  void evaluate_whole(const Frame& frame, const LoopBatch& batch) {
     collect(frame, batch);
     const auto n = static_cast<std::size_t>(side(batch.depth));
     // The grids lie behind what the kernel needs of the same memory, so that frames need no more than rows.
@@ -273,7 +259,7 @@ class LoopStreamWorker {
   }
 
   template <class Writer>
-  void repairs(const LoopStreamFrame& frame, const LoopBatch& batch, std::size_t lane, Writer& writer) {
+  void repairs(Frame& frame, const LoopBatch& batch, std::size_t lane, Writer& writer) {
     const LoopPatch& patch = frame.patches[batch.items[lane]];
     for (int s = 0; s < 2; ++s) {
       const Half& half = patch.half[s];
@@ -282,13 +268,12 @@ class LoopStreamWorker {
     }
   }
 
-  const Vertex& centre(const LoopStreamFrame& frame, std::int32_t face) {
+  const Vertex& centre(Frame& frame, std::int32_t face) {
     CachedCentre& cached = frame.centres[face];
     if (!cached.known) {
       if (!centre_) centre_.emplace(frame.adjacency.max_valence());
-      cached = {
-          placed(centre_->evaluate(*frame.control, face, frame.centre), frame.stream.rings().placement()),
-          true};
+      const Vertex at = centre_->evaluate(*frame.control, face, frame.options.cracks.centre);
+      cached = {placed(at, frame.stream.rings().placement()), true};
     }
     return cached.point;
   }
@@ -298,6 +283,95 @@ class LoopStreamWorker {
   std::vector<Grid> grids_;
   Vertex* whole_ = nullptr;  // in workspace_.work
   std::optional<FanCentreEvaluator<float>> centre_;
+};
+
+/// One quad of a face: the face itself, or a part of one that was cut.
+struct QuadPart {
+  std::size_t patch;
+  int part;
+};
+
+/// Quads of one depth that go together, as strips; or one face that needs something else.
+struct QuadFrameBatch {
+  int depth;  // of the quads; -1: a face by itself
+  std::span<const QuadPart> items;
+};
+
+/// Frame   what all threads read, see QuadStreamFrames
+template <class Frame>
+class QuadStreamWorker {
+ public:
+  /// make_writer(patch index) gives each patch a writer.
+  template <class MakeWriter>
+  void run(const Frame& frame, const QuadFrameBatch& batch, MakeWriter&& make_writer) {
+    if (batch.depth < 0) {
+      const std::size_t i = batch.items.front().patch;
+      auto writer = make_writer(i);
+      return show_repaired<float>(frame.patches[i], frame.faces, frame.plan, frame.options.cracks.centre,
+                                  Points{frame, *this}, border_, writer);
+    }
+    using Writer = decltype(make_writer(std::size_t{}));
+    std::vector<Writer> writers;
+    writers.reserve(batch.items.size());
+    quads_.clear();
+    for (const QuadPart& part : batch.items) {
+      const QuadPatch& patch = frame.patches[part.patch];
+      writers.push_back(make_writer(part.patch));
+      if constexpr (requires(Writer writer) { writer.go_to(0); }) writers.back().go_to(part.part);
+      quads_.push_back(frame.faces.quad(patch.face.face, part.part));
+    }
+    if constexpr (requires(Writer writer) { writer.grid(0); }) {
+      if (frame.placed) {
+        std::array<Vertex*, kMaxLanes> places;
+        for (std::size_t i = 0; i < writers.size(); ++i) places[i] = writers[i].grid(batch.items[i].part);
+        return frame.stream.put(quads_, batch.depth, workspace_, places.data(), Order::kFromC, frame.stores);
+      }
+    }
+    strips(frame.stream, quads_, batch.depth, workspace_, Order::kFromC,
+           [&](std::size_t i, int row, const RowPair<float>& strip) {
+             writers[i].strip(batch.items[i].part, row, strip);
+           });
+  }
+
+  /// Bytes of its own, writers aside.
+  std::size_t bytes() const {
+    std::size_t count = grid_.capacity();
+    for (const auto& points : border_) count += points.capacity();
+    return workspace_.bytes() + sizeof(Vertex) * count;
+  }
+
+ private:
+  /// The points of a face that is by itself, see show_repaired().
+  struct Points {
+    const Frame& frame;
+    QuadStreamWorker& worker;
+
+    Vec3<float> position(std::int32_t v) const { return frame.stream.control(v); }
+    Vertex limit(std::int32_t v) const { return frame.stream.limit(v); }
+    void edge(std::int32_t h, int depth, Vertex* out) const {
+      frame.stream.edges({&h, 1}, depth, worker.workspace_, out, &frame.few_lanes);
+    }
+    Vertex middle(std::int32_t quad) const {
+      std::array<Vertex, 9> points;  // of depth 1
+      frame.stream.whole({&quad, 1}, 1, worker.workspace_, points.data(), &frame.few_lanes);
+      return points[4];
+    }
+    const Vertex* grid(const QuadPatch& patch) const {
+      const QuadFaces& faces = frame.faces;
+      worker.quads_.clear();
+      for (int part = 0; part < patch.face.parts; ++part)
+        worker.quads_.push_back(faces.quad(patch.face.face, part));
+      worker.grid_.resize(static_cast<std::size_t>(patch.face.parts * patch.face.block().size()));
+      frame.stream.whole(worker.quads_, patch.depth - (faces.cut() ? 1 : 0), worker.workspace_,
+                         worker.grid_.data(), &frame.few_lanes);
+      return worker.grid_.data();
+    }
+  };
+
+  Workspace workspace_;
+  std::vector<std::int32_t> quads_;
+  QuadBorder<float> border_;
+  std::vector<Vertex> grid_;  // of a stitched face
 };
 
 }  // namespace limitcheck::fast::row_stream

@@ -27,7 +27,6 @@
 #undef HWY_INLINE
 #undef HWY_FLATTEN
 // The vector targets include the same files anew.
-#undef LIMITCHECK_FAST_STREAM_ROWS_INL_H_
 #undef LIMITCHECK_FAST_STREAM_RULES_INL_H_
 #undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_
 #undef LIMITCHECK_FAST_STREAM_STRIP_INL_H_

@@ -226,20 +226,21 @@ class LineRuns {
 
  private:
   static constexpr int kVertices = 8;  // three lines
+  using Sixteen = hn::Vec<hn::CappedTag<float, L>>;
 
   // 16 numbers of each lane, 16 lanes side by side.
   HWY_ATTR HWY_INLINE void write_line(const float* numbers) {
     for (int half = 0; half < L; half += 8) {
-      __m512 low[4], high[4];  // of numbers 0..7 and 8..15: blocks of four numbers of lanes r and 4 + r
+      Sixteen low[4], high[4];  // of numbers 0..7 and 8..15: blocks of four numbers of lanes r and 4 + r
       for (int r = 0; r < 4; ++r) {
-        low[r] = two_halves(numbers + L * r + half);
-        high[r] = two_halves(numbers + L * (8 + r) + half);
+        low[r].raw = two_halves(numbers + L * r + half);
+        high[r].raw = two_halves(numbers + L * (8 + r) + half);
       }
-      transpose_blocks(low);
-      transpose_blocks(high);
+      N::transpose_blocks(low);
+      N::transpose_blocks(high);
       for (int r = 0; r < 4; ++r) {
-        put(half + r, _mm512_shuffle_f32x4(low[r], high[r], 0x88));
-        put(half + 4 + r, _mm512_shuffle_f32x4(low[r], high[r], 0xdd));
+        put(half + r, _mm512_shuffle_f32x4(low[r].raw, high[r].raw, 0x88));
+        put(half + 4 + r, _mm512_shuffle_f32x4(low[r].raw, high[r].raw, 0xdd));
       }
     }
     written_ += 16;
@@ -247,16 +248,6 @@ class LineRuns {
   // Eight lanes of a number and of the fourth after it: from memory, which takes no shuffle.
   HWY_ATTR static HWY_INLINE __m512 two_halves(const float* at) {
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_load_ps(at)), _mm256_load_ps(at + 4 * L), 1);
-  }
-  HWY_ATTR static HWY_INLINE void transpose_blocks(__m512 (&v)[4]) {
-    const __m512d ab0 = _mm512_castps_pd(_mm512_unpacklo_ps(v[0], v[1]));
-    const __m512d ab1 = _mm512_castps_pd(_mm512_unpackhi_ps(v[0], v[1]));
-    const __m512d cd0 = _mm512_castps_pd(_mm512_unpacklo_ps(v[2], v[3]));
-    const __m512d cd1 = _mm512_castps_pd(_mm512_unpackhi_ps(v[2], v[3]));
-    v[0] = _mm512_castpd_ps(_mm512_unpacklo_pd(ab0, cd0));
-    v[1] = _mm512_castpd_ps(_mm512_unpackhi_pd(ab0, cd0));
-    v[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(ab1, cd1));
-    v[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(ab1, cd1));
   }
 
   // The line that the last numbers of a lane and these complete.

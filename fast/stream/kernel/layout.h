@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
 
 #include "fast/mesh/vec3.h"
@@ -271,11 +270,8 @@ constexpr int kPatchWork = 48 + 24;  // coefficients of the patch, and of a row
 constexpr int quad_strips_offset(int depth) {
   return quad_patch_offset(depth) + kPatchWork;
 }
-constexpr int quad_strip_size(int depth) {
-  return 6 * ((1 << depth) + 1);
-}
 constexpr int quad_work_size(int depth) {
-  return quad_strips_offset(depth) + 3 * quad_strip_size(depth);
+  return quad_strips_offset(depth) + 3 * edge_output_size(depth);
 }
 
 /// The unit of limit points of a depth, which the rules leave 36 * 4^depth times too large.

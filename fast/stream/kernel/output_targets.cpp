@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The vector loops of input and output, for every target.
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 
 #include "fast/stream/kernel/output_targets.h"
 

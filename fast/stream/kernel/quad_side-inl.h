@@ -8,8 +8,6 @@
 #define LIMITCHECK_FAST_STREAM_QUAD_SIDE_INL_H_
 #endif
 
-#include <cstddef>
-
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/quad_rows-inl.h"
 #include "fast/stream/kernel/quad_rules-inl.h"

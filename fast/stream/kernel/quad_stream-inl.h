@@ -9,7 +9,6 @@
 #endif
 
 #include <array>
-#include <cstddef>
 
 #include "fast/stream/kernel/layout.h"
 #include "fast/stream/kernel/quad_rows-inl.h"
@@ -101,7 +100,7 @@ class QuadStream {
   }
   // Point k of a side that has an origin of its own.
   Scalar* strip(int side, int k) const {
-    return strips_ + ((side - kBC) * quad_strip_size(depth_) + 6 * k) * L;
+    return strips_ + ((side - kBC) * edge_output_size(depth_) + 6 * k) * L;
   }
 
   HWY_ATTR void corners(int first, int last, int j) {

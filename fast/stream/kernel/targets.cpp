@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fast/stream/kernel/targets.h"
 
-#include <array>
 #include <vector>
 
 #include "fast/stream/kernel/kernel.h"

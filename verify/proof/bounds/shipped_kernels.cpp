@@ -12,8 +12,7 @@
 #include "fast/mesh/cut_mesh.h"
 #include "fast/rules/limit.h"
 #include "fast/stream/gather/batch.h"
-#include "fast/stream/gather/quad_batch.h"
-#include "fast/stream/gather/quad_rings.h"
+#include "fast/stream/gather/rings.h"
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
 #include "verify/proof/maps/scheme_runs.h"
@@ -148,15 +147,14 @@ void stream_triangles(ProvedKernel kernel, const data::ControlMesh& mesh, std::s
         else
           grids.push_back({face, face + twin / 3, 0, twin % 3, depth});
       }
-      gather(adjacency, rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
+      gather(rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
     };
     collector.begin(target.name, target.lanes);
     if (kernel == ProvedKernel::kRowStreamEdge) {
       for (std::int32_t h = 0; h < (twin < 0 ? 3 : 6); ++h)
         collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
           const auto edges = of_lanes(copy, h, 3 * faces);
-          gather_edges(adjacency, rings, std::span<const std::int32_t>(edges), depth, target.lanes,
-                       input.data());
+          gather_edges(rings, std::span<const std::int32_t>(edges), depth, target.lanes, input.data());
           target.run_edges(input.data(), depth, rings.placement(), work.data(), out, stride);
         });
       continue;

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "fast/plan/grid.h"
+#include "fast/plan/pairing.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/loop/recursion_impl.h"

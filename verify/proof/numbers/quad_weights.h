@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fast/rules/quad_limit_impl.h"
+#include "fast/rules/quad_limit.h"
 #include "verify/proof/numbers/error_bound_number.h"
 #include "verify/proof/numbers/stencil.h"
 

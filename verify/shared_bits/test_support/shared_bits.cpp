@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "fast/frame/patch.h"
@@ -149,13 +150,15 @@ void add_pairs(const Rewriting& mesh, int depth, const rs::Kernel& kernel, Form 
   rs::Workspace workspace;
   Sink sink{mesh, bits};
   if (form == Form::kRows) {
+    std::pair<Sink*, const std::vector<fast::Grid>*> sink_and_pairs{&sink, &pairs};
     stream.rows(
         pairs, depth, workspace,
         [](void* context, const rs::RowView& view) {
-          for (std::size_t lane = 0; lane < view.grids.size(); ++lane)
-            static_cast<Sink*>(context)->row(view.grids[lane], view.depth, view.j, view.vertices(lane));
+          const auto& [to, of] = *static_cast<std::pair<Sink*, const std::vector<fast::Grid>*>*>(context);
+          for (std::size_t lane = 0; lane < view.size(); ++lane)
+            to->row((*of)[view.number(lane)], view.depth, view.j, view.vertices(lane));
         },
-        &sink);
+        &sink_and_pairs);
     return;
   }
   const auto side = static_cast<std::size_t>(rs::side(depth));

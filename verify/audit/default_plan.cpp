@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <exception>
-#include <string>
 
 #include "data/generators/named_mesh.h"
-#include "data/generators/star_meshes.h"
 #include "data/worst_cases.h"
 #include "verify/host/host.h"
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "verify/host/host.h"
 
-#include <fmt/core.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "data/error.h"

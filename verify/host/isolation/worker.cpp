@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 #include <sys/random.h>
 #include <unistd.h>
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>

@@ -13,7 +13,7 @@
 
 #include "data/scheme.h"
 #include "verify/evidence/audit_case.h"
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 

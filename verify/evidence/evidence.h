@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "verify/evidence/audit_case.h"
-#include "verify/evidence/lattice.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/host/host.h"
 #include "verify/row/result.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 

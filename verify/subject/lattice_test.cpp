@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 #include <gtest/gtest.h>
 

@@ -184,11 +184,11 @@ class Cover {
       const auto [axis, k] = on_axis(f);
       wish[static_cast<std::size_t>(axis)] = static_cast<int>(k);
       if (axis == Axis::kFan) {
-        set(wish, Axis::kSide, fan(f).boundary ? 1 : 0);
-        set(wish, Axis::kFaces, static_cast<int>(fan(f).size_class));
+        set(wish, Axis::kSide, fan(k).boundary ? 1 : 0);
+        set(wish, Axis::kFaces, static_cast<int>(fan(k).size_class));
       }
       if (axis != Axis::kVertex) continue;
-      const VertexTags tags = vertex_tags(f);
+      const VertexTags tags = vertex_tags(k);
       set(wish, Axis::kSide, tags.boundary ? 1 : 0), set(wish, Axis::kInfinite, tags.infinite);
       set(wish, Axis::kSemi, tags.semi), set(wish, Axis::kOwn, tags.own);
     }

@@ -57,10 +57,6 @@ double Evidence::normal_bound_at(Sides::Id side) const {
       conditioned_normal_bound(capabilities.precision, magnitude, reference.normal_condition(side)));
 }
 
-Witness Evidence::at_point(Lattice::Id id) const {
-  return at(lattice.place(id));
-}
-
 Witness Evidence::at(const Place& p) const {
   Witness w;
   w.face = p.face;
@@ -94,10 +90,6 @@ std::vector<std::int32_t> deepest_near(const Evidence& e) {
         its = std::max(its, e.face_depth[edge.face[1 - s]]);
   }
   return depth;
-}
-
-bool is_finite(const Tessellation& t, std::int64_t v) {
-  return is_finite(t.position(v)) && (!t.has_normals() || is_finite(t.normal(v)));
 }
 
 std::int64_t not_finite(const Tessellation& t) {

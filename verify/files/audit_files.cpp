@@ -120,7 +120,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
     return rows;
   };
   std::vector<Result> rows = by_feet();
-  if (any_quick(e) && std::any_of(rows.begin(), rows.end(), is_bad)) {
+  if (std::count(e.quick.begin(), e.quick.end(), 1) > 0 && std::any_of(rows.begin(), rows.end(), is_bad)) {
     place_points(e, known, told, placed, Search::kThorough);
     rows = by_feet();
   }

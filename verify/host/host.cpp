@@ -172,10 +172,6 @@ void Session::close() {
   });
 }
 
-std::string Session::label() const {
-  return options_.empty() ? std::string(subject_.name) : fmt::format("{}:{}", subject_.name, options_);
-}
-
 Tessellation Session::tessellate(int depth, int threads) {
   const std::vector<std::int32_t> all(mesh_.faces.size(), depth);
   return tessellate(all, threads);

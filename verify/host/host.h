@@ -117,7 +117,9 @@ class Tessellation {
   }
   int components(std::size_t channel) const { return channel_components_[channel]; }
   /// A component of the value at corner k of triangle t, and the bytes of all of them.
-  double channel_value(std::size_t channel, std::int64_t t, int k, int component) const;
+  double channel_value(std::size_t channel, std::int64_t t, int k, int component) const {
+    return number(out_.channel_values, channel_place(channel, t, k) + static_cast<std::size_t>(component));
+  }
   std::span<const std::byte> channel_bits(std::size_t channel, std::int64_t t, int k) const;
   /// Numbers at the corners of triangle t, values and derivatives, that still hold the 0xFF bytes.
   std::int64_t channels_unwritten(std::int64_t t) const;
@@ -126,7 +128,7 @@ class Tessellation {
   double channel_derivative(std::size_t channel, std::int64_t t, int k, int component, int parameter) const;
 
   /// Indices and control face of triangle t are in range.
-  bool triangle_ok(std::int64_t t) const;
+  bool triangle_ok(std::int64_t t) const { return face_ok(t) && indices_ok(t); }
   /// The control face exists and (i, j) / denominator lies in its domain.
   bool provenance_ok(std::int64_t v) const;
 
@@ -141,7 +143,10 @@ class Tessellation {
  private:
   friend class Session;
   std::size_t coordinate_size() const { return precision_ == LC_FLOAT32 ? sizeof(float) : sizeof(double); }
-  std::array<double, 3> read(const void* array, std::int64_t v) const;
+  std::array<double, 3> read(const void* array, std::int64_t v) const {
+    const std::size_t k = 3 * static_cast<std::size_t>(v);
+    return {number(array, k), number(array, k + 1), number(array, k + 2)};
+  }
   std::span<const std::byte> bits(const void* array, std::int64_t v) const;
   bool unwritten(const void* array, std::int64_t v) const;
   template <class T>
@@ -151,9 +156,14 @@ class Tessellation {
   }
   // The components at corner k of triangle t begin at so many times the numbers that a component has.
   std::size_t channel_place(std::size_t channel, std::int64_t t, int k) const;
-  double number(const void* array, std::size_t at) const;
+  double number(const void* array, std::size_t at) const {
+    return precision_ == LC_FLOAT64 ? static_cast<const double*>(array)[at]
+                                    : static_cast<double>(static_cast<const float*>(array)[at]);
+  }
   bool indices_ok(std::int64_t t) const;
-  bool face_ok(std::int64_t t) const;
+  bool face_ok(std::int64_t t) const {
+    return out_.triangle_face[t] >= 0 && out_.triangle_face[t] < std::ssize(face_sizes_);
+  }
   // find_places: of a subject without provenance.
   void inspect(lc_tessellation out, const lc_capabilities& promised,
                const std::function<Matching(const Bare&)>& find_places);
@@ -197,7 +207,7 @@ class Session {
   const lc_subject& subject() const { return subject_; }
   const lc_capabilities& capabilities() const { return capabilities_; }
   /// "name" or "name:options".
-  std::string label() const;
+  std::string label() const { return subject_.name + (options_.empty() ? "" : ":" + options_); }
   /// The mesh as the subject got it: the reference takes these rounded positions as exact.
   const data::ControlMesh& mesh() const { return mesh_; }
   data::Scheme scheme() const { return lent_.scheme; }

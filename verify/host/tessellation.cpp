@@ -120,11 +120,6 @@ bool all_0xff(const std::byte* number, std::size_t size) {
 
 }  // namespace
 
-std::array<double, 3> Tessellation::read(const void* array, std::int64_t v) const {
-  const std::size_t k = 3 * static_cast<std::size_t>(v);
-  return {number(array, k), number(array, k + 1), number(array, k + 2)};
-}
-
 std::span<const std::byte> Tessellation::bits(const void* array, std::int64_t v) const {
   const std::size_t size = 3 * coordinate_size();
   return {static_cast<const std::byte*>(array) + static_cast<std::size_t>(v) * size, size};
@@ -141,33 +136,16 @@ bool Tessellation::indices_ok(std::int64_t t) const {
   return std::all_of(corners.begin(), corners.end(), [this](std::uint32_t v) { return v < vertex_count(); });
 }
 
-bool Tessellation::face_ok(std::int64_t t) const {
-  return out_.triangle_face[t] >= 0 && out_.triangle_face[t] < std::ssize(face_sizes_);
-}
-
-bool Tessellation::triangle_ok(std::int64_t t) const {
-  return face_ok(t) && indices_ok(t);
-}
-
 std::size_t Tessellation::channel_place(std::size_t channel, std::int64_t t, int k) const {
   std::int64_t before = 0;  // components of earlier channels
   for (std::size_t c = 0; c < channel; ++c) before += channel_components_[c];
   return static_cast<std::size_t>(3 * triangle_count() * before + (3 * t + k) * channel_components_[channel]);
 }
 
-double Tessellation::number(const void* array, std::size_t at) const {
-  return precision_ == LC_FLOAT64 ? static_cast<const double*>(array)[at]
-                                  : static_cast<double>(static_cast<const float*>(array)[at]);
-}
-
 std::span<const std::byte> Tessellation::channel_bits(std::size_t channel, std::int64_t t, int k) const {
   return {
       static_cast<const std::byte*>(out_.channel_values) + channel_place(channel, t, k) * coordinate_size(),
       static_cast<std::size_t>(channel_components_[channel]) * coordinate_size()};
-}
-
-double Tessellation::channel_value(std::size_t channel, std::int64_t t, int k, int component) const {
-  return number(out_.channel_values, channel_place(channel, t, k) + static_cast<std::size_t>(component));
 }
 
 std::int64_t Tessellation::channels_unwritten(std::int64_t t) const {

@@ -104,10 +104,6 @@ int depth_of(const data::ControlMesh& control, data::Scheme scheme, std::size_t 
 
 }  // namespace
 
-bool any_quick(const FileEvidence& e) {
-  return std::find(e.quick.begin(), e.quick.end(), 1) != e.quick.end();
-}
-
 FacePoint domain_point(const FileEvidence& e, const ProvenanceRow& row) {
   return e.surface.surface().has_control_faces()
              ? row.at

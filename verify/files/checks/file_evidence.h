@@ -83,9 +83,6 @@ std::vector<ProvenanceRow> matched_provenance(const FileEvidence& e);
 void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance, bool told,
                   const std::function<void(std::size_t, std::size_t)>& on_step,
                   Search search = Search::kThorough);
-/// Whether any foot was found quickly.
-bool any_quick(const FileEvidence& evidence);
-
 /// All faces of the domain that a point lies in, ascending.
 std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at);
 /// A point of the domain in all faces that have it, evaluated in each: on an edge that stays sharp the normals

@@ -26,14 +26,8 @@ double longest_side(const std::array<Vector, 3>& t) {
 class OneWay {
  public:
   OneWay(const FileEvidence& e, const Overlay& overlay, const std::vector<Bound>& bounds, bool forwards,
-         double tightness, const std::function<void()>& tick)
-      : e_(e),
-        overlay_(overlay),
-        bounds_(bounds),
-        forwards_(forwards),
-        tightness_(tightness),
-        tick_(tick),
-        order_(bounds.size()) {
+         const std::function<void()>& tick)
+      : e_(e), overlay_(overlay), bounds_(bounds), forwards_(forwards), tick_(tick), order_(bounds.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::sort(order_.begin(), order_.end(),
               [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
@@ -51,7 +45,7 @@ class OneWay {
  private:
   double value(const Bound& b) const { return forwards_ ? b.from_triangles : b.from_surface; }
   // What an upper bound need not go below.
-  double enough() const { return bracket_.at_least * (1 + tightness_) + 1e-15 * e_.surface.diagonal(); }
+  double enough() const { return bracket_.at_least * (1 + kTightness) + 1e-15 * e_.surface.diagonal(); }
 
   void raise_lower_end() {
     for (std::size_t k = 0; k < std::min(kExact, order_.size()); ++k) {
@@ -171,7 +165,6 @@ class OneWay {
   const Overlay& overlay_;
   const std::vector<Bound>& bounds_;  // of the lattice's pieces
   const bool forwards_;               // from the triangles to the surface
-  const double tightness_;
   const std::function<void()>& tick_;
   std::vector<std::size_t> order_;  // of the bounds, the largest first
   Bracket bracket_;
@@ -212,7 +205,7 @@ double from_one_polygon_each(const FileEvidence& e) {
 
 }  // namespace
 
-Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick, double tightness) {
+Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick) {
   tick();
   const Overlay overlay(e);
   const SurfaceLattice& lattice = e.surface.lattice();
@@ -224,8 +217,8 @@ Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick, do
   Hausdorff result;
   result.loose = static_cast<std::int64_t>(overlay.loose().size());
   result.one_polygon_each = from_one_polygon_each(e);
-  result.from_triangles = OneWay(e, overlay, bounds, true, tightness, tick).run();
-  result.from_surface = OneWay(e, overlay, bounds, false, tightness, tick).run();
+  result.from_triangles = OneWay(e, overlay, bounds, true, tick).run();
+  result.from_surface = OneWay(e, overlay, bounds, false, tick).run();
   return result;
 }
 

@@ -35,14 +35,15 @@ struct Hausdorff {
 /// surface that no triangle covers are bounded by the distance at their middle and their size (of a triangle
 /// taken out of a plane the bracket is 0.996 to 1.075 times the radius of its inscribed circle, which is the
 /// distance). The lower bounds are exact distances at the most promising corners; pieces whose upper bound is
-/// beyond the largest of them by more than `tightness` are split, at most five times, or fourteen towards an
+/// beyond the largest of them by more than kTightness are split, at most five times, or fourteen towards an
 /// extraordinary vertex. There the upper bound stays too large: a triangle laid over the domain is shifted
 /// along the surface against the piece it is compared with. Triangles over several faces are bounded by the
 /// distances of their corners and their size, split three times.
 ///   tick   called now and then from this thread; may throw to end it
 ///   error  rounding, 1e-15 of the mesh, is not accounted for
+inline constexpr double kTightness = .02;
 Hausdorff hausdorff(
-    const FileEvidence& evidence, const std::function<void()>& tick = [] {}, double tightness = .02);
+    const FileEvidence& evidence, const std::function<void()>& tick = [] {});
 
 /// The row `file-hausdorff`; `bound` in diagonals, negative: one polygon per control face (Loop's scheme:
 /// one triangle), and the tolerance of positions.

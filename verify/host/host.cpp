@@ -12,17 +12,12 @@
 #include "data/error.h"
 #include "data/validate.h"
 #include "reference/surface/channel.h"
-#include "verify/host/host_memory.h"
 #include "verify/host/matching.h"
 #include "verify/host/subject_call.h"
 
 namespace limitcheck::verify {
 
 namespace {
-
-const char* text(const std::string& options) {
-  return options.empty() ? nullptr : options.c_str();
-}
 
 // What is wrong with the capabilities, or nothing. Enumerations are compared as numbers, because those of a
 // foreign library may hold any.
@@ -106,8 +101,9 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
   lc_capabilities result{};
   result.size = sizeof result;
   result.scheme = scheme_of(scheme);
-  detail::call(subject, "capabilities",
-               [&](const char** message) { return subject.capabilities(text(options), &result, message); });
+  detail::call(subject, "capabilities", [&](const char** message) {
+    return subject.capabilities(detail::text(options), &result, message);
+  });
   if (const std::string wrong = impossible(result); !wrong.empty())
     throw SubjectDied(SubjectDied::Kind::kProtocol,
                       fmt::format("{}: its capabilities are impossible: {}", subject.name, wrong));
@@ -152,7 +148,7 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
 
   const lc_mesh& mine = lent_.lend();
   detail::call(subject_, "create", [&](const char** message) {
-    return subject_.create(&mine, text(options_), &instance_, message);
+    return subject_.create(&mine, detail::text(options_), &instance_, message);
   });
 }
 
@@ -200,20 +196,9 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   result.face_sizes_ = lent_.face_sizes;
   for (const data::Channel& channel : mesh_.channels)
     result.channel_components_.push_back(channel.components);
-  const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate,
-                           sizeof(lc_request)};
-  lc_tessellation out{};
-  out.size = sizeof out;
-  detail::call(subject_, "tessellate",
-               [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
-
-  // The arrays are the host's, so the subject can let go at once; a copy, because it may clear its own.
-  const lc_tessellation delivered = out;
-  try {
-    subject_.release(instance_, &out);
-  } catch (...) {
-    result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
-  }
+  const auto [delivered, release_threw] =
+      detail::tessellate(subject_, instance_, face_depth, threads, *result.memory_);
+  if (release_threw) result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
   std::function<Matching(const Bare&)> find_places;
   if (capabilities_.no_provenance != 0)
     find_places = [&](const Bare& t) {

@@ -149,7 +149,7 @@ Relation::Change with_infinite(float sharpness) {
 }
 
 bool has_lasting_crease_and_boundary(const data::ControlMesh& mesh, const Lattice& lattice) {
-  return !boundary_of(lattice).empty() && any_is(mesh.sharpness.edges, lasts);
+  return any_is(mesh.sharpness.edges, lasts) && !boundary_of(lattice).empty();
 }
 void boundary_crease(const Evidence& e, Variant& v) {
   std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
@@ -164,10 +164,9 @@ void boundary_crease(const Evidence& e, Variant& v) {
 
 // A cut is the same surface if sharpness lasts wherever there is some, and no sharp edge ends in a dart.
 bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
-  if (has_semi_sharp(mesh)) return false;
+  if (has_semi_sharp(mesh) || !any_is(mesh.sharpness.edges, lasts)) return false;
   const std::vector<int> count = lasting_edges_at(mesh, lattice);
-  return any_is(mesh.sharpness.edges, lasts) &&
-         std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
+  return std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
 }
 void cut_by_hand(const Evidence& e, Variant& v) {
   data::ControlMesh& mesh = v.mesh;

@@ -38,8 +38,7 @@ Witness FileEvidence::at_vertex(std::int32_t vertex) const {
   return there;
 }
 
-Witness FileEvidence::at_point(const FacePoint& at) const {
-  const LimitSurface::ControlPoint named = surface.surface().control_point(at);
+Witness FileEvidence::at_point(const LimitSurface::ControlPoint& named) const {
   Witness w;
   w.face = named.face;
   w.corner = named.corner;

@@ -43,7 +43,8 @@ struct FileEvidence {
   }
   Result result(std::string check, std::string unit = {}, std::optional<double> bound = {}) const;
   Witness at_vertex(std::int32_t vertex) const;
-  Witness at_point(const FacePoint& at) const;
+  Witness at_point(const LimitSurface::ControlPoint& named) const;
+  Witness at_point(const FacePoint& at) const { return at_point(surface.surface().control_point(at)); }
 };
 
 /// Whether two corners of a triangle are one point.

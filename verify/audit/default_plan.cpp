@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "data/generators/named_mesh.h"
+#include "data/generators/star_meshes.h"
 #include "data/worst_cases.h"
 #include "verify/host/host.h"
 

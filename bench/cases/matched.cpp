@@ -10,7 +10,7 @@
 
 #include "data/bounding_box.h"
 #include "reference/surface/surface.h"
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::bench {
 

@@ -22,8 +22,8 @@
 #include "fast/mesh/vec3.h"
 #include "fast/window/tessellator.h"
 #include "verify/evidence/evidence.h"
-#include "verify/evidence/lattice.h"
 #include "verify/host/host.h"
+#include "verify/subject/lattice.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::bench {

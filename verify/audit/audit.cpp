@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <mutex>
 #include <new>
 #include <optional>
 #include <span>
@@ -20,9 +19,7 @@
 #include "verify/host/host.h"
 #include "verify/host/matching.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/recognise/recognise.h"
 #include "verify/relations/relation_row.h"
-#include "verify/relations/relations.h"
 #include "verify/report/json.h"
 #include "verify/row/statistics.h"
 #include "verify/subject/weights_option.h"
@@ -128,13 +125,11 @@ struct Auditor::Rows {
   std::vector<Result>& results;
 
   void add(std::string_view check, Status status, const std::string& message) const {
-    Result r;
-    r.subject = subject;
-    r.mesh = mesh;
-    r.check = check;
-    r.status = status;
-    r.message = message;
-    results.push_back(std::move(r));
+    results.push_back({.subject = subject,
+                       .mesh = mesh,
+                       .check = std::string(check),
+                       .status = status,
+                       .message = message});
   }
   // The row `tessellates` of a subject that does not.
   void add_failure(const std::exception& error, const std::string& contradiction) const {
@@ -339,16 +334,13 @@ void Auditor::judge(const AuditSubject& audited, const AuditMesh& mesh, std::vec
     step(rows.subject, mesh.name, relation);
     return true;
   };
-  if (related(level_, mesh, judged)) {
-    std::unique_lock lock(shared_->mutex);
-    std::vector<Refusal>& refusals = shared_->refusals[{rows.subject, mesh.scheme()}];
-    lock.unlock();
-    for (Result& r : check_relations(audited, evidence, threads_, refusals, told))
-      results.push_back(std::move(r));
-  } else if (std::any_of(relations.begin(), relations.end(), wanted)) {
-    for (Result& r : check_cheap_relations(audited, evidence, threads_, told))
-      results.push_back(std::move(r));
-  }
+  if (std::none_of(relations.begin(), relations.end(), wanted)) return;
+  std::unique_lock lock(shared_->mutex);
+  std::vector<Refusal>& refusals = shared_->refusals[{rows.subject, mesh.scheme()}];
+  lock.unlock();
+  for (Result& r :
+       check_relations(audited, evidence, threads_, refusals, related(level_, mesh, judged), told))
+    results.push_back(std::move(r));
 }
 
 void Auditor::run_checks(const AuditSubject& audited, const AuditMesh& mesh, const Evidence& evidence,

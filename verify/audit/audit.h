@@ -15,7 +15,7 @@
 #include "verify/evidence/evidence.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/recognise/recognise.h"
-#include "verify/relations/refusal.h"
+#include "verify/relations/relations.h"
 #include "verify/row/result.h"
 #include "verify/shard/shard.h"
 

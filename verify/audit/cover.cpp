@@ -55,7 +55,7 @@ class Cover {
   Cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed)
       : scheme_(scheme), known_(known), random_(seed) {}
 
-  void run(std::int32_t ability, std::vector<CoveringStars>& cases) {
+  void run(std::int32_t ability, std::vector<PlannedCase>& cases) {
     ability_ = ability;
     Covered now = covered_by(known_, scheme_, ability);
     for (int failures = 0; failures < kPatience;) {
@@ -75,13 +75,15 @@ class Cover {
       failures = 0;
       add_cells(now.looked, best->looked.cells);
       known_.push_back(best->looked);
+      best->planned.mesh = best->stars.text();
       cases.push_back(best->planned);
     }
   }
 
  private:
   struct Try {
-    CoveringStars planned;
+    data::Stars stars;
+    PlannedCase planned;
     Looked looked;
     double gain = 0, cost = 0;
     double worth() const { return gain / (kCaseCost + cost); }
@@ -94,7 +96,7 @@ class Cover {
   void judge(Try& one) const {
     const bool loop = scheme_ == data::Scheme::kLoop;
 
-    data::Stars stars = one.planned.stars;
+    data::Stars stars = one.stars;
     stars.thrice = false;  // the filling is the same for all
     AuditMesh m{"", data::star_mesh(stars, loop)};
     m.relations = one.planned.relations;
@@ -102,7 +104,7 @@ class Cover {
     m.depth = one.planned.depth;
     m.depths = one.planned.depths;
     m.face_depth = face_depths(parse_depths(m.depths), m.mesh, m.depth);
-    one.looked = one.planned.stars.thrice ? look_thrice(m) : look_at(m);
+    one.looked = one.stars.thrice ? look_thrice(m) : look_at(m);
     one.gain = one.cost = 0;
     for (const std::size_t k : missing_) one.gain += one.looked.cells[k] ? 1 : 0;
     for (std::size_t f = 0; f < m.mesh.faces.size(); ++f) {
@@ -112,7 +114,7 @@ class Cover {
         one.cost += std::ldexp(loop ? 0.5 : corners == 4 ? 1.0 : static_cast<double>(corners) / 4, 2 * depth);
     }
     one.cost += static_cast<double>(m.mesh.faces.size());
-    if (one.planned.stars.thrice) one.cost += kFarCost;
+    if (one.stars.thrice) one.cost += kFarCost;
     if (one.planned.relations) one.cost = kRelationsCost * (one.cost + kCaseCost);
     if (one.planned.relations && size_for_relations(m.mesh) > kRelationFaces) one.gain = 0;
     if (!can(one.looked.needs)) one.gain = 0;
@@ -137,21 +139,20 @@ class Cover {
   }
 
   static double most_cost(const Try& one) {
-    return one.planned.relations ? kRelationsCost * kMostCost
-                                 : kMostCost + (one.planned.stars.thrice ? kFarCost : 0);
+    return one.planned.relations ? kRelationsCost * kMostCost : kMostCost + (one.stars.thrice ? kFarCost : 0);
   }
 
   Try mesh() {
     Try best;
-    best.planned.stars.seed = below(1000);
-    best.planned.stars.chaikin = can(LC_SHARP_CHAIKIN) && chance(0.5);
-    best.planned.stars.corners_held = can(LC_SHARP_CORNERS) && chance(0.4);
-    best.planned.stars.smooth_triangles =
+    best.stars.seed = below(1000);
+    best.stars.chaikin = can(LC_SHARP_CHAIKIN) && chance(0.5);
+    best.stars.corners_held = can(LC_SHARP_CORNERS) && chance(0.4);
+    best.stars.smooth_triangles =
         scheme_ == data::Scheme::kCatmullClark && can(LC_SHARP_SMOOTH_TRIANGLES) && chance(0.4);
     const Ways& way = kWays[below(can(kNeedsDepths) ? kWays.size() : kUniformWays)];
     best.planned.depth = way.depth;
     best.planned.relations = way.depth == 2 && chance(0.4);
-    best.planned.stars.thrice = can(kNeedsDepths) && !best.planned.relations && way.depth == 1 && chance(0.5);
+    best.stars.thrice = can(kNeedsDepths) && !best.planned.relations && way.depth == 1 && chance(0.5);
     if (way.kind != std::string("uniform"))
       best.planned.depths =
           fmt::format("random:{}{}", below(100), way.kind == std::string("visible") ? ":visible" : "");
@@ -161,7 +162,7 @@ class Cover {
         const auto star = star_for(missing_[below(missing_.size())], best);
         if (!star) continue;
         Try one = best;
-        one.planned.stars.stars.push_back(*star);
+        one.stars.stars.push_back(*star);
         judge(one);
         if (one.cost <= most_cost(one) && one.gain > best.gain &&
             (!next || (one.gain - best.gain) / (200 + one.cost - best.cost) >
@@ -184,22 +185,21 @@ class Cover {
       const auto [axis, k] = on_axis(f);
       wish[static_cast<std::size_t>(axis)] = static_cast<int>(k);
       if (axis == Axis::kFan) {
-        set(wish, Axis::kSide, fan(f).boundary ? 1 : 0);
-        set(wish, Axis::kFaces, static_cast<int>(fan(f).size_class));
+        set(wish, Axis::kSide, fan(k).boundary ? 1 : 0);
+        set(wish, Axis::kFaces, static_cast<int>(fan(k).size_class));
       }
       if (axis != Axis::kVertex) continue;
-      const VertexTags tags = vertex_tags(f);
+      const VertexTags tags = vertex_tags(k);
       set(wish, Axis::kSide, tags.boundary ? 1 : 0), set(wish, Axis::kInfinite, tags.infinite);
       set(wish, Axis::kSemi, tags.semi), set(wish, Axis::kOwn, tags.own);
     }
     const auto want = [&](Axis a) { return wish[static_cast<std::size_t>(a)]; };
     const auto is_not = [&](Axis a, bool second) { return want(a) != kNone && want(a) != (second ? 1 : 0); };
     const bool uniform = in.planned.depths == "uniform";
-    if ((want(Axis::kCreasing) != kNone && (want(Axis::kCreasing) > 0) != in.planned.stars.chaikin) ||
-        is_not(Axis::kBoundary, in.planned.stars.corners_held) ||
-        is_not(Axis::kTriangles, in.planned.stars.smooth_triangles) ||
-        (want(Axis::kNeighbour) > 0 && uniform) || (want(Axis::kAsked) == 0 && !in.planned.relations) ||
-        (want(Axis::kIndex) > 1 && !in.planned.stars.thrice) ||
+    if ((want(Axis::kCreasing) != kNone && (want(Axis::kCreasing) > 0) != in.stars.chaikin) ||
+        is_not(Axis::kBoundary, in.stars.corners_held) ||
+        is_not(Axis::kTriangles, in.stars.smooth_triangles) || (want(Axis::kNeighbour) > 0 && uniform) ||
+        (want(Axis::kAsked) == 0 && !in.planned.relations) || (want(Axis::kIndex) > 1 && !in.stars.thrice) ||
         (want(Axis::kDepth) != kNone &&
          (uniform ? want(Axis::kDepth) != in.planned.depth : want(Axis::kDepth) > in.planned.depth)))
       return std::nullopt;
@@ -350,8 +350,8 @@ Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::i
   return result;
 }
 
-std::vector<CoveringStars> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed) {
-  std::vector<CoveringStars> cases;
+std::vector<PlannedCase> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed) {
+  std::vector<PlannedCase> cases;
   Cover search(scheme, known, seed);
   for (const std::int32_t ability : steps_of_ability()) search.run(ability, cases);
   return cases;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <string>
 
 #include "data/generators/named_mesh.h"
 #include "data/generators/star_meshes.h"

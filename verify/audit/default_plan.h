@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "data/generators/star_meshes.h"
 #include "verify/audit/audit.h"
 #include "verify/evidence/cells.h"
 
@@ -42,13 +41,6 @@ struct PlannedCase {
 /// Of meshes of more vertices than 15 bits number, a sample.
 AuditMesh made(const PlannedCase& planned);
 
-/// Stars (data/generators/star_meshes.h) and their depths.
-struct CoveringStars {
-  data::Stars stars;
-  int depth = 0;
-  std::string depths = "uniform";
-  bool relations = false;
-};
 /// What a case looks at, and what it asks of a subject (Feature::needs).
 struct Looked {
   std::int32_t needs;
@@ -61,9 +53,9 @@ Looked look_at(const AuditMesh& mesh);
 const std::vector<std::int32_t>& steps_of_ability();
 
 /// Those that look at the cells of a scheme which `known` cases do not, for each step of ability, as far as
-/// they are found: greedily those that look at most for their time. The same for the same seed. `known` has
-/// them added.                                                                                     O(minutes)
-std::vector<CoveringStars> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed);
+/// they are found: greedily those that look at most for their time. Their meshes are named as Stars::text() does
+/// (data/generators/star_meshes.h). The same for the same seed. `known` has them added.            O(minutes)
+std::vector<PlannedCase> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed);
 /// The cells that need no more than a subject does, and whether cases that need no more look at them.
 struct Covered {
   CellSet wanted, looked;

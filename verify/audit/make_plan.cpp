@@ -19,8 +19,8 @@ int main(int count, char** arguments) {
       if (m.scheme() == scheme && m.name.find("stars:") == std::string::npos) known.push_back(look_at(m));
     fmt::print("  static const std::vector<PlannedStars> {}{{\n",
                scheme == data::Scheme::kLoop ? "loop" : "quads");
-    for (const CoveringStars& c : cover(scheme, known, seed))
-      fmt::print("      {{\"{}\", {}, \"{}\", {}}},\n", c.stars.text(), c.depth, c.depths, c.relations);
+    for (const PlannedCase& c : cover(scheme, known, seed))
+      fmt::print("      {{\"{}\", {}, \"{}\", {}}},\n", c.mesh, c.depth, c.depths, c.relations);
     fmt::print("  }};\n");
     for (const std::int32_t ability : steps_of_ability()) {
       const Covered now = covered_by(known, scheme, ability);

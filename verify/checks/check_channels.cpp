@@ -14,7 +14,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "data/numeral.h"
 #include "reference/surface/channel.h"
 #include "verify/checks/checks.h"
 #include "verify/evidence/other_channel.h"
@@ -60,22 +59,15 @@ struct Corners {
 };
 
 // Three components, and their derivatives.
-using Values = Vector;
 struct Point {
-  Values value{};
-  std::array<Values, 2> derivative{};
+  Vector value{};
+  std::array<Vector, 2> derivative{};
   bool has_derivatives = true;
 };
-Values values_of(const reference::Vec3<double>& v) {
-  return vector_of(v);
-}
-Values values_of(const reference::Enclosure3& v) {
-  return {data::parse<double>(v[0].value), data::parse<double>(v[1].value), data::parse<double>(v[2].value)};
-}
 Point point_of(const auto& p) {
-  return {values_of(p.position), {values_of(p.d1), values_of(p.d2)}, p.first_exist};
+  return {vector_of(p.position), {vector_of(p.d1), vector_of(p.d2)}, p.first_exist};
 }
-double distance(const Values& a, const Values& b) {
+double distance(const Vector& a, const Vector& b) {
   const Vector off = a - b;
   return std::hypot(off[0], off[1], off[2]);
 }
@@ -176,7 +168,7 @@ class Part {
            diagonal_;
   }
   // Of the components that there are.
-  std::vector<double> shown(const Values& values) const { return {values.begin(), values.begin() + count_}; }
+  std::vector<double> shown(const Vector& values) const { return {values.begin(), values.begin() + count_}; }
 
  private:
   const Evidence& e_;
@@ -253,7 +245,7 @@ class ChannelRow {
                 is = is_bad(row_) ? part.certified(place_of(k)) : part.expected({place_of(k)})[0];
     const auto put = [&](std::vector<double>& to, const Point& p) {
       if (bound_ == &Part::bound) return void(to = part.shown(p.value));
-      for (const Values& d : p.derivative)
+      for (const Vector& d : p.derivative)
         for (const double x : part.shown(d)) to.push_back(x);
     };
     put(w.got, got), put(w.expected, is);

@@ -18,10 +18,10 @@
 #include "reference/number/number_exact.h"
 #include "reference/surface/surface.h"
 #include "verify/evidence/faces_around.h"
-#include "verify/evidence/lattice.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/adapter.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 namespace {

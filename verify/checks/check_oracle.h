@@ -22,15 +22,8 @@ inline constexpr int kOraclePoints = 4;  // of a mesh
 
 Oracle the_oracle();
 
-/// Three rows, over points drawn by the mesh alone, most of them near sharp edges and vertices; in units of what
-/// is allowed, so that 1 is the bound:
-///   oracle-faces   A point of an edge or of a vertex, asked from each of its faces (16 where there are more): any two balls of its position
-///                  meet, and so do those of its normal and of its Gaussian curvature where the faces are on one
-///                  side of all edges that stay sharp.
-///   oracle-double  Position and first derivatives in double are within their bound of the certificate; both
-///                  know of the same derivatives.
-///   oracle-parts   A certificate reads few faces. It meets that of a mesh of those faces alone (support.h,
-///                  cut_out.h), and the evaluation of the whole mesh, uncut, in 50 decimals.
+/// Three rows (verify/row/rows.cpp) over points drawn by the mesh alone, most of them near sharp edges and vertices,
+/// asked from each of their faces, or from 16 of them; in units of what is allowed, so that 1 is the bound.
 /// What an evaluator throws is an error of its row.
 ///   points   how many are drawn
 std::vector<Result> check_oracle(const AuditMesh& mesh, int points = kOraclePoints,

@@ -157,31 +157,6 @@ bool is_plain(const Evidence& e, std::span<const std::int32_t> deepest, std::int
   return true;
 }
 
-// The triangles of each face, one face after the other.
-struct OfFaces {
-  explicit OfFaces(const Evidence& e) : start(e.mesh.faces.size() + 1, 0) {
-    const Tessellation& t = e.tessellation;
-    placed.resize(t.triangle_count());
-    std::vector<Corners> corners(placed.size());
-    tbb::parallel_for(std::int64_t{0}, t.triangle_count(),
-                      [&](std::int64_t k) { placed[k] = e.place(k, corners[k]); });
-    for (std::int64_t k = 0; k < t.triangle_count(); ++k)
-      if (placed[k]) ++start[t.triangle_face()[k] + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    sorted.resize(start.back());
-    std::vector<std::int64_t> fill(start.begin(), start.end() - 1);
-    for (std::int64_t k = 0; k < t.triangle_count(); ++k)
-      if (placed[k]) sorted[fill[t.triangle_face()[k]]++] = corners[k];
-  }
-  std::span<const Corners> operator[](std::int32_t f) const {
-    return {sorted.data() + start[f], static_cast<std::size_t>(start[f + 1] - start[f])};
-  }
-
-  std::vector<std::uint8_t> placed;  // of each triangle: whether it lies in the face it names
-  std::vector<std::int64_t> start;
-  std::vector<Corners> sorted;
-};
-
 }  // namespace
 
 std::vector<Result> check_orientation(const Evidence& e) {
@@ -211,7 +186,13 @@ std::vector<Result> check_coverage(const Evidence& e) {
   Result r = e.result("coverage", "faces", 0);
   const Tessellation& t = e.tessellation;
   const auto faces = static_cast<std::int32_t>(e.mesh.faces.size());
-  const OfFaces triangles(e);
+  std::vector<Corners> corners(static_cast<std::size_t>(t.triangle_count()));
+  std::vector<std::uint8_t> placed(corners.size());  // of each triangle: whether it lies in the face it names
+  tbb::parallel_for(std::int64_t{0}, t.triangle_count(),
+                    [&](std::int64_t k) { placed[k] = e.place(k, corners[k]); });
+  std::vector<std::vector<Corners>> triangles(e.mesh.faces.size());
+  for (std::int64_t k = 0; k < t.triangle_count(); ++k)
+    if (placed[k]) triangles[t.triangle_face()[k]].push_back(corners[k]);
   const std::vector<std::int32_t> deepest = deepest_near(e);
 
   std::vector<Tiling> verdicts(faces);
@@ -237,7 +218,7 @@ std::vector<Result> check_coverage(const Evidence& e) {
     if (v.triangle < 0) v.triangle = triangle;
   };
   for (std::int64_t k = 0; k < t.triangle_count(); ++k)
-    if (!triangles.placed[k]) ++misplaced, blame(t.triangle_face()[k], k);
+    if (!placed[k]) ++misplaced, blame(t.triangle_face()[k], k);
   for (std::int64_t v = 0; v < t.vertex_count(); ++v)
     if (e.point[v] == Lattice::kNone) ++off_lattice, blame(t.provenance()[v].face, -1);
 

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -67,37 +66,18 @@ bool has_normals(const Evidence& e, Result& row, bool of_limits = false);
 /// reports those.
 void say_left_out(Result& row, std::int64_t count, const char* what);
 
-/// `written`: array defects and overruns that the host found, and entries that still hold the bytes with
-/// which the memory was handed out.
+/// The checks, in the order of the table. checks() says which rows each finds; what a row looks at is told in
+/// verify/row/rows.cpp.
 std::vector<Result> check_written(const Evidence&);
-/// `finite`: positions and normals that were written and are NaN or infinite.
 std::vector<Result> check_finite(const Evidence&);
-/// `positions`: distance from the exact limit point; `refined-positions`: from the vertex of the refined
-/// control mesh, for subjects that deliver no limit points (their `positions` is not supported).
 std::vector<Result> check_positions(const Evidence&);
-/// `normals`: angle from the exact normal, where the surface
-/// has one; `normal-length`: distance from unit length.
 std::vector<Result> check_normals(const Evidence&);
-/// `normals-against-positions`: the normals fit the facets as well as the exact ones do.
 std::vector<Result> check_normals_against_positions(const Evidence&);
-/// `orientation`: triangles counter-clockwise on their control face, and facing as the exact facet does.
 std::vector<Result> check_orientation(const Evidence&);
-/// `coverage`: every control face tiled exactly once, at its depth.
 std::vector<Result> check_coverage(const Evidence&);
-/// `shared-positions`, `shared-normals`: a point on a control edge or vertex that is delivered more than once
-/// has the same bits each time.
 std::vector<Result> check_shared(const Evidence&);
-/// `continuity`: what the faces at a control edge or vertex deliver there differs by no more than their
-/// errors may.
 std::vector<Result> check_continuity(const Evidence&);
-/// `watertight`: merging equal positions only, the triangles form a manifold with exactly the boundary of the
-/// control mesh; `t-vertices`: no vertex lies inside an edge of another triangle.
 std::vector<Result> check_watertight(const Evidence&);
-
-/// `channel-positions`: at each corner of a triangle the values of the mesh's channels, on the side of the seam
-/// on which the triangle lies; `channel-derivatives`: their derivatives there, if the subject delivers them;
-/// `channel-shared`: a value that several triangles have has the same bits in each. Not supported where the subject
-/// was handed no channel.
 std::vector<Result> check_channels(const Evidence&);
 
 struct Check {

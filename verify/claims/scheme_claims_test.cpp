@@ -25,9 +25,9 @@
 #include "reference/number/number_exact.h"
 #include "reference/surface/surface.h"
 #include "verify/audit/audit.h"
-#include "verify/evidence/lattice.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"
+#include "verify/subject/lattice.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

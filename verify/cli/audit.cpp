@@ -18,7 +18,7 @@
 #include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/relations/refusal.h"
+#include "verify/relations/relations.h"
 #include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/subject/devices.h"

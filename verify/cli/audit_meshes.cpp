@@ -24,7 +24,7 @@
 #include "verify/cli/audit.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
-#include "verify/relations/refusal.h"
+#include "verify/relations/relations.h"
 #include "verify/report/json.h"
 #include "verify/row/rows.h"
 #include "verify/shard/shard.h"

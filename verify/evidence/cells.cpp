@@ -35,18 +35,8 @@ constexpr int most_semi(bool boundary) {
   return boundary ? kBoundaryEdges : kSemiEdges;
 }
 constexpr std::size_t kVerticesInside = 3 * (kInfiniteEdges + 1) * (kSemiEdges + 1);
-VertexTags tags_of(std::size_t number) {
-  const bool boundary = number >= kVerticesInside;
-  const int k = static_cast<int>(boundary ? number - kVerticesInside : number),
-            semi = most_semi(boundary) + 1;
-  return {boundary, k / 3 / semi, k / 3 % semi, k % 3};
-}
 // Those of the axis kFan: inside, from three faces on, then on the boundary.
 constexpr std::size_t kFansInside = kSizeClasses - kLeastInside;
-Fan fan_of(std::size_t number) {
-  return number < kFansInside ? Fan{false, number + kLeastInside} : Fan{true, number - kFansInside};
-}
-
 // All features; where those of each axis begin.
 struct Table {
   std::vector<Feature> list;
@@ -153,9 +143,10 @@ bool go_together(const Feature& a, std::size_t i, const Feature& b, std::size_t 
   };
   const auto is = [&](Axis x, Axis y) { return a.axis == x && b.axis == y; };
   const int faces = a.axis == Axis::kFaces ? kLeast[i] : 0;
-  if (b.axis == Axis::kVertex) return a.axis == Axis::kCreasing && tags_of(j).semi >= (i < kUnequal ? 1 : 2);
+  if (b.axis == Axis::kVertex)
+    return a.axis == Axis::kCreasing && vertex_tags(j).semi >= (i < kUnequal ? 1 : 2);
   // The depth is that of masks and of steps, which inside and on the boundary are of different code.
-  if (b.axis == Axis::kFan) return a.axis == Axis::kDepth && i <= deepest(fan_of(j).size_class);
+  if (b.axis == Axis::kFan) return a.axis == Axis::kDepth && i <= deepest(fan(j).size_class);
   // What a tessellator may keep by, and what its numbers of vertices may be too small for: large meshes take long.
   if (b.axis == Axis::kAsked || (b.axis == Axis::kIndex && j >= kFarIndex)) {
     if (a.axis == Axis::kFaces) return faces <= 8;
@@ -244,8 +235,8 @@ std::size_t feature_on(Axis axis, std::size_t k) {
   return table().at(axis, k);
 }
 
-Fan fan(std::size_t feature) {
-  return fan_of(on_axis(feature).second);
+Fan fan(std::size_t number) {
+  return number < kFansInside ? Fan{false, number + kLeastInside} : Fan{true, number - kFansInside};
 }
 
 std::optional<std::size_t> Fan::feature() const {
@@ -254,8 +245,11 @@ std::optional<std::size_t> Fan::feature() const {
                                    : std::optional(feature_on(Axis::kFan, size_class - kLeastInside));
 }
 
-VertexTags vertex_tags(std::size_t feature) {
-  return tags_of(on_axis(feature).second);
+VertexTags vertex_tags(std::size_t number) {
+  const bool boundary = number >= kVerticesInside;
+  const int k = static_cast<int>(boundary ? number - kVerticesInside : number),
+            semi = most_semi(boundary) + 1;
+  return {boundary, k / 3 / semi, k / 3 % semi, k % 3};
 }
 
 std::size_t VertexTags::feature() const {

@@ -13,7 +13,7 @@
 
 #include "data/scheme.h"
 #include "verify/evidence/audit_case.h"
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 
@@ -65,22 +65,22 @@ const std::vector<Feature>& features();
 std::pair<Axis, std::size_t> on_axis(std::size_t feature);
 /// The feature that is value k on an axis.
 std::size_t feature_on(Axis axis, std::size_t k);
-/// What a feature on the axis kVertex says; the largest numbers mean "and more". `own` as on its axis.
+/// What a value on the axis kVertex says; the largest numbers mean "and more". `own` as on its axis.
 inline constexpr int kInfiniteEdges = 5, kSemiEdges = 3;
 struct VertexTags {
   bool boundary;
   int infinite, semi, own;
   std::size_t feature() const;
 };
-VertexTags vertex_tags(std::size_t feature);
-/// What a feature on the axis kFan says: the class of the number of faces, and on which side. Inside there is none of
+VertexTags vertex_tags(std::size_t k);
+/// What a value on the axis kFan says: the class of the number of faces, and on which side. Inside there is none of
 /// fewer than three faces.
 struct Fan {
   bool boundary;
   std::size_t size_class;
   std::optional<std::size_t> feature() const;
 };
-Fan fan(std::size_t feature);
+Fan fan(std::size_t k);
 /// The least number of faces of class k < kSizeClasses, or of corners of class k - 2; and the class of a number.
 inline constexpr std::size_t kSizeClasses = 22;
 int least_of(std::size_t size_class);

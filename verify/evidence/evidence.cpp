@@ -15,18 +15,16 @@
 namespace limitcheck::verify {
 
 Result Evidence::result(std::string_view check, std::string_view unit, std::optional<double> bound) const {
-  Result r;
-  r.subject = subject;
-  r.mesh = mesh_name;
-  r.check = check;
-  r.unit = unit;
-  r.bound = bound;
-  r.depth = lattice.depth();
-  r.precision = capabilities.precision;
-  r.scheme = lattice.scheme();
-  r.weights = reference.weights();
-  r.status = Status::kHeld;
-  return r;
+  return {.subject = subject,
+          .mesh = mesh_name,
+          .check = std::string(check),
+          .depth = lattice.depth(),
+          .precision = capabilities.precision,
+          .scheme = lattice.scheme(),
+          .weights = reference.weights(),
+          .status = Status::kHeld,
+          .bound = bound,
+          .unit = std::string(unit)};
 }
 
 Witness Evidence::at_vertex(std::int64_t vertex) const {
@@ -55,10 +53,6 @@ double Evidence::normal_bound_at(Sides::Id side) const {
   return std::max(
       normal_bound(capabilities.precision, reference.steps()),
       conditioned_normal_bound(capabilities.precision, magnitude, reference.normal_condition(side)));
-}
-
-Witness Evidence::at_point(Lattice::Id id) const {
-  return at(lattice.place(id));
 }
 
 Witness Evidence::at(const Place& p) const {
@@ -94,10 +88,6 @@ std::vector<std::int32_t> deepest_near(const Evidence& e) {
         its = std::max(its, e.face_depth[edge.face[1 - s]]);
   }
   return depth;
-}
-
-bool is_finite(const Tessellation& t, std::int64_t v) {
-  return is_finite(t.position(v)) && (!t.has_normals() || is_finite(t.normal(v)));
 }
 
 std::int64_t not_finite(const Tessellation& t) {

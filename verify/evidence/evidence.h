@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "verify/evidence/audit_case.h"
-#include "verify/evidence/lattice.h"
 #include "verify/evidence/reference_surface.h"
 #include "verify/host/host.h"
 #include "verify/row/result.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 
@@ -51,7 +51,7 @@ struct Evidence {
   /// where the surface is ill-conditioned (bounds.h).
   double normal_bound_at(Sides::Id side) const;
   /// The witness for a lattice point, and for a point of a face.
-  Witness at_point(Lattice::Id id) const;
+  Witness at_point(Lattice::Id id) const { return at(lattice.place(id)); }
   Witness at(const Place& p) const;
   /// The lattice coordinates of the corners of a triangle in the face that it names; false if an index or the
   /// face is out of range, or a corner does not lie in that face. Where a part of the face
@@ -64,7 +64,9 @@ struct Evidence {
 std::vector<std::int32_t> deepest_near(const Evidence& e);
 
 /// Position and, if there is one, normal of a vertex are neither NaN nor infinite.
-bool is_finite(const Tessellation& tessellation, std::int64_t vertex);
+inline bool is_finite(const Tessellation& t, std::int64_t vertex) {
+  return is_finite(t.position(vertex)) && (!t.has_normals() || is_finite(t.normal(vertex)));
+}
 /// How many vertices are not.
 std::int64_t not_finite(const Tessellation& tessellation);
 

@@ -11,20 +11,9 @@
 namespace limitcheck::verify {
 namespace {
 
-class Features {
- public:
-  void add(std::size_t feature) { list_.push_back(static_cast<std::uint16_t>(feature)); }
+struct Features : std::vector<std::uint16_t> {
+  void add(std::size_t feature) { push_back(static_cast<std::uint16_t>(feature)); }
   void add(Axis axis, std::size_t k) { add(feature_on(axis, k)); }
-  // Each once, ascending.
-  std::vector<std::uint16_t> sorted() const {
-    std::vector<std::uint16_t> all = list_;
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
-  }
-
- private:
-  std::vector<std::uint16_t> list_;
 };
 
 // The first class that goes up to a number.
@@ -178,7 +167,9 @@ std::vector<std::vector<std::uint16_t>> neighbourhoods(const AuditMesh& mesh) {
     if (!looker.is_displayed(looker.vertices()[v])) continue;
     Features found = whole;
     looker.add_features(v, found);
-    all.insert(found.sorted());
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    all.insert(std::move(found));
   }
   return {all.begin(), all.end()};
 }

@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "data/control_mesh.h"
 #include "verify/row/result.h"

@@ -11,7 +11,6 @@
 #include <optional>
 #include <unordered_map>
 
-#include "data/numeral.h"
 #include "reference/surface/certified.h"
 #include "reference/surface/surface.h"
 #include "verify/interrupt/interrupt.h"
@@ -23,11 +22,6 @@ constexpr int kDigits = 40;
 
 std::vector<std::string> digits(const reference::Enclosure3& point) {
   return {point[0].value, point[1].value, point[2].value};
-}
-
-Vector rounded(const reference::Enclosure3& point) {
-  return {data::parse<double>(point[0].value), data::parse<double>(point[1].value),
-          data::parse<double>(point[2].value)};
 }
 
 // See normal_condition(). In units of the larger tangent, so that nothing overflows or vanishes.
@@ -99,8 +93,8 @@ const ExactPoint* ReferenceSurface::certified(Sides::Id side) const {
       const auto exact =
           evaluator->evaluate(p.face, p.corner, reference::Parameter::fraction(p.i, p.denominator),
                               reference::Parameter::fraction(p.j, p.denominator), kDigits);
-      point = {rounded(exact.position), rounded(exact.normal), digits(exact.position), digits(exact.normal),
-               exact.normal_kind == reference::NormalKind::kRegular};
+      point = {vector_of(exact.position), vector_of(exact.normal), digits(exact.position),
+               digits(exact.normal), exact.normal_kind == reference::NormalKind::kRegular};
     } catch (const std::exception&) {  // a neighbourhood that it does not take: the word in double stands
     }
   return point ? &*point : nullptr;

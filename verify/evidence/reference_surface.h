@@ -11,9 +11,9 @@
 
 #include "data/control_mesh.h"
 #include "reference/loop/masks.h"
-#include "verify/evidence/lattice.h"
 #include "verify/evidence/vector.h"
 #include "verify/row/bounds.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 

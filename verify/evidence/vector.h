@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "data/numeral.h"
+
 namespace limitcheck::verify {
 
 using Vector = std::array<double, 3>;
@@ -15,6 +17,11 @@ using Vector = std::array<double, 3>;
 template <class V>
 Vector vector_of(const V& v) {
   return {v.x, v.y, v.z};
+}
+/// Of three certified numbers (reference/surface/certified.h), rounded.
+template <class Enclosure>
+Vector vector_of(const std::array<Enclosure, 3>& v) {
+  return {data::parse<double>(v[0].value), data::parse<double>(v[1].value), data::parse<double>(v[2].value)};
 }
 
 inline Vector operator-(const Vector& a, const Vector& b) {

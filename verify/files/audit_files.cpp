@@ -120,7 +120,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
     return rows;
   };
   std::vector<Result> rows = by_feet();
-  if (any_quick(e) && std::any_of(rows.begin(), rows.end(), is_bad)) {
+  if (std::count(e.quick.begin(), e.quick.end(), 1) > 0 && std::any_of(rows.begin(), rows.end(), is_bad)) {
     place_points(e, known, told, placed, Search::kThorough);
     rows = by_feet();
   }
@@ -178,15 +178,10 @@ FilesAudit audit_files(const std::string& control_name, const data::ControlMesh&
     for (const char* check :
          {"file-finite", "file-unused", distance_row(provenance), "file-normals", "file-normal-length",
           "file-orientation", "file-coverage", "file-degenerate", "file-watertight", "file-hausdorff"}) {
-      if (std::any_of(audit.results.begin(), audit.results.end(),
-                      [&](const Result& r) { return r.check == check; }))
-        continue;
-      Result r;
-      r.subject = name;
-      r.mesh = control_name;
-      r.check = check;
-      r.message = "interrupted";
-      audit.results.push_back(std::move(r));
+      if (std::none_of(audit.results.begin(), audit.results.end(),
+                       [&](const Result& r) { return r.check == check; }))
+        audit.results.push_back(
+            {.subject = name, .mesh = control_name, .check = check, .message = "interrupted"});
     }
   }
   return audit;

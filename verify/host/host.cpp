@@ -1,30 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "verify/host/host.h"
 
-#include <fmt/core.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include "data/error.h"
 #include "data/validate.h"
 #include "reference/surface/channel.h"
-#include "verify/host/host_memory.h"
 #include "verify/host/matching.h"
 #include "verify/host/subject_call.h"
 
 namespace limitcheck::verify {
 
 namespace {
-
-const char* text(const std::string& options) {
-  return options.empty() ? nullptr : options.c_str();
-}
 
 // What is wrong with the capabilities, or nothing. Enumerations are compared as numbers, because those of a
 // foreign library may hold any.
@@ -35,23 +28,19 @@ std::string impossible(const lc_capabilities& c) {
     std::memcpy(&n, &value, sizeof n);
     return n;
   };
-  struct Choice {
-    const char* name;
-    std::int32_t value;
-  };
-  for (const Choice& choice : {Choice{"precision", number(c.precision)},
-                               {"weights", number(c.weights)},
-                               {"boundary", number(c.boundary)},
-                               {"points", number(c.points)},
-                               {"normals", c.normals},
-                               {"per_face_depth", c.per_face_depth},
-                               {"exact_lattice", c.exact_lattice},
-                               {"does_not_validate", c.does_not_validate},
-                               {"no_provenance", c.no_provenance},
-                               {"channel_derivatives", c.channel_derivatives},
-                               {"points_anywhere", c.points_anywhere}})
-    if (choice.value != 0 && choice.value != 1)
-      return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
+  for (const auto& [name, value] : {std::pair{"precision", number(c.precision)},
+                                    {"weights", number(c.weights)},
+                                    {"boundary", number(c.boundary)},
+                                    {"points", number(c.points)},
+                                    {"normals", c.normals},
+                                    {"per_face_depth", c.per_face_depth},
+                                    {"exact_lattice", c.exact_lattice},
+                                    {"does_not_validate", c.does_not_validate},
+                                    {"no_provenance", c.no_provenance},
+                                    {"channel_derivatives", c.channel_derivatives},
+                                    {"points_anywhere", c.points_anywhere}})
+    if (value != 0 && value != 1)
+      return fmt::format("{} is {}, and only 0 and 1 mean something", name, value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
     return fmt::format("schemes is {}", c.schemes);
   if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_NO_DARTS) return fmt::format("sharp is {}", c.sharp);
@@ -108,8 +97,9 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
   lc_capabilities result{};
   result.size = sizeof result;
   result.scheme = scheme_of(scheme);
-  detail::call(subject, "capabilities",
-               [&](const char** message) { return subject.capabilities(text(options), &result, message); });
+  detail::call(subject, "capabilities", [&](const char** message) {
+    return subject.capabilities(detail::text(options), &result, message);
+  });
   if (const std::string wrong = impossible(result); !wrong.empty())
     throw SubjectDied(SubjectDied::Kind::kProtocol,
                       fmt::format("{}: its capabilities are impossible: {}", subject.name, wrong));
@@ -154,7 +144,7 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
 
   const lc_mesh& mine = lent_.lend();
   detail::call(subject_, "create", [&](const char** message) {
-    return subject_.create(&mine, text(options_), &instance_, message);
+    return subject_.create(&mine, detail::text(options_), &instance_, message);
   });
 }
 
@@ -172,10 +162,6 @@ void Session::close() {
     subject_.destroy(instance_);
     return LC_OK;
   });
-}
-
-std::string Session::label() const {
-  return options_.empty() ? std::string(subject_.name) : fmt::format("{}:{}", subject_.name, options_);
 }
 
 Tessellation Session::tessellate(int depth, int threads) {
@@ -206,20 +192,9 @@ Tessellation Session::tessellate(std::span<const std::int32_t> face_depth, int t
   result.face_sizes_ = lent_.face_sizes;
   for (const data::Channel& channel : mesh_.channels)
     result.channel_components_.push_back(channel.components);
-  const lc_request request{face_depth.data(), threads, result.memory_.get(), &detail::Memory::allocate,
-                           sizeof(lc_request)};
-  lc_tessellation out{};
-  out.size = sizeof out;
-  detail::call(subject_, "tessellate",
-               [&](const char** message) { return subject_.tessellate(instance_, &request, &out, message); });
-
-  // The arrays are the host's, so the subject can let go at once; a copy, because it may clear its own.
-  const lc_tessellation delivered = out;
-  try {
-    subject_.release(instance_, &out);
-  } catch (...) {
-    result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
-  }
+  const auto [delivered, release_threw] =
+      detail::tessellate(subject_, instance_, face_depth, threads, *result.memory_);
+  if (release_threw) result.defects_.push_back({Defect::Kind::kThrew, "", 1, -1, "release() threw"});
   std::function<Matching(const Bare&)> find_places;
   if (capabilities_.no_provenance != 0)
     find_places = [&](const Bare& t) {

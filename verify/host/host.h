@@ -69,59 +69,66 @@ struct RefinedComplex;
 class Tessellation {
  public:
   lc_precision precision() const { return precision_; }
-  std::int64_t vertex_count() const { return vertices_; }
-  std::int64_t triangle_count() const { return triangles_; }
-  bool has_normals() const { return normals_ != nullptr; }
+  std::int64_t vertex_count() const { return out_.vertex_count; }
+  std::int64_t triangle_count() const { return out_.triangle_count; }
+  bool has_normals() const { return out_.normals != nullptr; }
 
   /// Position or unit normal of vertex v, 0 <= v < vertex_count(), whatever the precision (exact conversion).
-  std::array<double, 3> position(std::int64_t v) const { return read(positions_, v); }
-  std::array<double, 3> normal(std::int64_t v) const { return read(normals_, v); }
+  std::array<double, 3> position(std::int64_t v) const { return read(out_.positions, v); }
+  std::array<double, 3> normal(std::int64_t v) const { return read(out_.normals, v); }
 
   /// Their bytes (12 or 24), to compare bits.
-  std::span<const std::byte> position_bits(std::int64_t v) const { return bits(positions_, v); }
-  std::span<const std::byte> normal_bits(std::int64_t v) const { return bits(normals_, v); }
+  std::span<const std::byte> position_bits(std::int64_t v) const { return bits(out_.positions, v); }
+  std::span<const std::byte> normal_bits(std::int64_t v) const { return bits(out_.normals, v); }
 
   /// True if some coordinate still holds the 0xFF bytes it was handed out with. (A NaN that arithmetic makes
   /// has other bits.)
-  bool position_unwritten(std::int64_t v) const { return unwritten(positions_, v); }
-  bool normal_unwritten(std::int64_t v) const { return unwritten(normals_, v); }
+  bool position_unwritten(std::int64_t v) const { return unwritten(out_.positions, v); }
+  bool normal_unwritten(std::int64_t v) const { return unwritten(out_.normals, v); }
 
   /// 3 * vertex_count() coordinates, x y z; empty if the subject's precision is the other one.
-  std::span<const float> positions_f32() const { return array<float>(positions_, LC_FLOAT32); }
-  std::span<const double> positions_f64() const { return array<double>(positions_, LC_FLOAT64); }
-  std::span<const float> normals_f32() const { return array<float>(normals_, LC_FLOAT32); }
-  std::span<const double> normals_f64() const { return array<double>(normals_, LC_FLOAT64); }
+  std::span<const float> positions_f32() const { return array<float>(out_.positions, LC_FLOAT32); }
+  std::span<const double> positions_f64() const { return array<double>(out_.positions, LC_FLOAT64); }
+  std::span<const float> normals_f32() const { return array<float>(out_.normals, LC_FLOAT32); }
+  std::span<const double> normals_f64() const { return array<double>(out_.normals, LC_FLOAT64); }
 
   std::span<const lc_provenance> provenance() const {
-    return {provenance_, static_cast<std::size_t>(vertices_)};
+    return {out_.provenance, static_cast<std::size_t>(vertex_count())};
   }
   /// Of each vertex the corner whose quad its provenance is of; empty if none was delivered.
   std::span<const std::int32_t> corners() const {
-    return {corner_, corner_ == nullptr ? 0 : static_cast<std::size_t>(vertices_)};
+    return {out_.corner, out_.corner == nullptr ? 0 : static_cast<std::size_t>(vertex_count())};
   }
   /// Both together.
-  Place place(std::int64_t v) const { return place_of(provenance_[v], corner_ == nullptr ? 0 : corner_[v]); }
+  Place place(std::int64_t v) const {
+    return place_of(out_.provenance[v], out_.corner == nullptr ? 0 : out_.corner[v]);
+  }
   std::span<const std::array<std::uint32_t, 3>> triangles() const {
-    return {indices_, static_cast<std::size_t>(triangles_)};
+    return {reinterpret_cast<const std::array<std::uint32_t, 3>*>(out_.triangles),
+            static_cast<std::size_t>(triangle_count())};
   }
   std::span<const std::int32_t> triangle_face() const {
-    return {triangle_face_, static_cast<std::size_t>(triangles_)};
+    return {out_.triangle_face, static_cast<std::size_t>(triangle_count())};
   }
 
   /// Of the channels that the mesh was handed over with how many were delivered: all, or none.
-  std::size_t channel_count() const { return channel_values_ == nullptr ? 0 : channel_components_.size(); }
+  std::size_t channel_count() const {
+    return out_.channel_values == nullptr ? 0 : channel_components_.size();
+  }
   int components(std::size_t channel) const { return channel_components_[channel]; }
   /// A component of the value at corner k of triangle t, and the bytes of all of them.
-  double channel_value(std::size_t channel, std::int64_t t, int k, int component) const;
+  double channel_value(std::size_t channel, std::int64_t t, int k, int component) const {
+    return number(out_.channel_values, channel_place(channel, t, k) + static_cast<std::size_t>(component));
+  }
   std::span<const std::byte> channel_bits(std::size_t channel, std::int64_t t, int k) const;
   /// Numbers at the corners of triangle t, values and derivatives, that still hold the 0xFF bytes.
   std::int64_t channels_unwritten(std::int64_t t) const;
   /// The derivative of a component by a parameter, 0 or 1.
-  bool has_channel_derivatives() const { return channel_derivatives_ != nullptr; }
+  bool has_channel_derivatives() const { return out_.channel_derivatives != nullptr; }
   double channel_derivative(std::size_t channel, std::int64_t t, int k, int component, int parameter) const;
 
   /// Indices and control face of triangle t are in range.
-  bool triangle_ok(std::int64_t t) const;
+  bool triangle_ok(std::int64_t t) const { return face_ok(t) && indices_ok(t); }
   /// The control face exists and (i, j) / denominator lies in its domain.
   bool provenance_ok(std::int64_t v) const;
 
@@ -136,23 +143,30 @@ class Tessellation {
  private:
   friend class Session;
   std::size_t coordinate_size() const { return precision_ == LC_FLOAT32 ? sizeof(float) : sizeof(double); }
-  std::array<double, 3> read(const void* array, std::int64_t v) const;
+  std::array<double, 3> read(const void* array, std::int64_t v) const {
+    const std::size_t k = 3 * static_cast<std::size_t>(v);
+    return {number(array, k), number(array, k + 1), number(array, k + 2)};
+  }
   std::span<const std::byte> bits(const void* array, std::int64_t v) const;
   bool unwritten(const void* array, std::int64_t v) const;
   template <class T>
   std::span<const T> array(const void* data, lc_precision precision) const {
     if (precision != precision_ || data == nullptr) return {};
-    return {static_cast<const T*>(data), 3 * static_cast<std::size_t>(vertices_)};
+    return {static_cast<const T*>(data), 3 * static_cast<std::size_t>(vertex_count())};
   }
   // The components at corner k of triangle t begin at so many times the numbers that a component has.
   std::size_t channel_place(std::size_t channel, std::int64_t t, int k) const;
-  double number(const void* array, std::size_t at) const;
+  double number(const void* array, std::size_t at) const {
+    return precision_ == LC_FLOAT64 ? static_cast<const double*>(array)[at]
+                                    : static_cast<double>(static_cast<const float*>(array)[at]);
+  }
   bool indices_ok(std::int64_t t) const;
-  bool face_ok(std::int64_t t) const;
+  bool face_ok(std::int64_t t) const {
+    return out_.triangle_face[t] >= 0 && out_.triangle_face[t] < std::ssize(face_sizes_);
+  }
   // find_places: of a subject without provenance.
-  void inspect(const lc_tessellation& out, const lc_capabilities& promised,
+  void inspect(lc_tessellation out, const lc_capabilities& promised,
                const std::function<Matching(const Bare&)>& find_places);
-  void inspect_contents();
   void take_places(const std::function<Matching(const Bare&)>& find_places);
 
   std::shared_ptr<detail::Memory> memory_;
@@ -160,15 +174,7 @@ class Tessellation {
   lc_precision precision_ = LC_FLOAT32;
   data::Scheme scheme_ = data::Scheme::kLoop;
   std::vector<std::int32_t> face_sizes_;
-  std::int64_t vertices_ = 0, triangles_ = 0;
-  const void* positions_ = nullptr;
-  const void* normals_ = nullptr;
-  lc_provenance* provenance_ = nullptr;
-  const std::array<std::uint32_t, 3>* indices_ = nullptr;
-  std::int32_t* triangle_face_ = nullptr;
-  const std::int32_t* corner_ = nullptr;
-  const void* channel_values_ = nullptr;
-  const void* channel_derivatives_ = nullptr;
+  lc_tessellation out_{};
   std::vector<std::int32_t> channel_components_;  // of each channel of the mesh
   std::vector<Defect> defects_;
   std::vector<Overrun> overruns_;
@@ -201,7 +207,7 @@ class Session {
   const lc_subject& subject() const { return subject_; }
   const lc_capabilities& capabilities() const { return capabilities_; }
   /// "name" or "name:options".
-  std::string label() const;
+  std::string label() const { return subject_.name + (options_.empty() ? "" : ":" + options_); }
   /// The mesh as the subject got it: the reference takes these rounded positions as exact.
   const data::ControlMesh& mesh() const { return mesh_; }
   data::Scheme scheme() const { return lent_.scheme; }

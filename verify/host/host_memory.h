@@ -9,7 +9,6 @@
 // may write anywhere belongs in a process of its own, where note_overruns() says which block it was.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

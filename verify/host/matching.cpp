@@ -12,8 +12,6 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <optional>
-#include <unordered_map>
 
 namespace limitcheck::verify {
 namespace {

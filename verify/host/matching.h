@@ -42,7 +42,7 @@ struct Cells {
   Cells reversed() const;
 };
 
-/// The control mesh refined `depth` times; `about` is where the control mesh is at each vertex. One thread may use it.
+/// The control mesh refined `depth` times; `about` is where the control mesh is at its vertices. One thread may use it.
 struct RefinedComplex {
   ///   mesh    valid for the scheme
   ///   depth   0 or more

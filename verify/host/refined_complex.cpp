@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <initializer_list>
-#include <unordered_map>
 #include <utility>
 
 #include "verify/host/matching.h"
-#include "verify/subject/face_domain.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -59,31 +58,15 @@ Cells Cells::reversed() const {
   other.corners = corners;
   for (std::int64_t c = 0; c < count(); ++c)
     std::reverse(other.corners.begin() + first[c], other.corners.begin() + first[c + 1]);
-  other.cell_of = cell_of;
-  other.valence = valence;
-  other.on_boundary = on_boundary;
-  other.across.resize(across.size());
-  // Side k of n is side n - 2 - k then, and the last one is the last one.
-  const auto turned = [this](std::int64_t s) {
-    const std::int64_t begin = first[cell_of[s]], end = first[cell_of[s] + 1];
-    return s + 1 == end ? s : begin + end - 2 - s;
-  };
-  for (std::int64_t s = 0; s < std::ssize(across); ++s)
-    other.across[turned(s)] = across[s] < 0 ? -1 : turned(across[s]);
+  other.connect(std::ssize(valence));
   return other;
 }
 
 RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int steps_down)
     : depth(steps_down), mesh_(mesh), scheme_(scheme) {
-  std::unordered_map<std::uint64_t, std::int32_t> edges;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::size_t k = 0; k < mesh.faces[f].size(); ++k)
-      edges.try_emplace(edge_key(mesh.faces[f][k], mesh.faces[f][(k + 1) % mesh.faces[f].size()]),
-                        static_cast<std::int32_t>(edges.size()));
-  const auto controls = static_cast<std::int64_t>(mesh.positions.size());
-  const std::int64_t n = std::int64_t{1} << depth;
-  std::int64_t inner = controls + static_cast<std::int64_t>(edges.size()) * (n - 1);
-
+  const Lattice lattice(mesh, scheme, depth);
+  const std::int64_t n = lattice.n();
+  side_at.assign(static_cast<std::size_t>(lattice.size()), -1);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto face = mesh.faces[f];
     const auto size = static_cast<int>(face.size());
@@ -112,22 +95,10 @@ RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme schem
     };
     const auto add = [&](FaceDomain::Point p) {  // the next corner of a cell
       p = domain.canonical(p, steps);
-      std::int64_t id = 0;
-      if (const auto at = domain.side_of(p, steps)) {
-        const std::int32_t a = face[at->side], b = face[domain.next(at->side)];
-        id = at->along == 0
-                 ? a
-                 : controls + edges.at(edge_key(a, b)) * (n - 1) + (a < b ? at->along : n - at->along) - 1;
-      } else {
-        id = inner + domain.inner_number(p, steps);
-      }
-      if (id >= std::ssize(side_at)) {
-        side_at.resize(id + 1, -1);
-        about.resize(id + 1);
-      }
+      const Lattice::Id id = lattice.id(static_cast<std::int32_t>(f), p, steps);
       if (side_at[id] < 0) {
         side_at[id] = std::ssize(place);
-        about[id] = about_of(p);
+        about.push_back(about_of(p));
         ++vertices;
       }
       place.push_back({static_cast<std::int32_t>(f), static_cast<std::uint32_t>(p.i),
@@ -155,7 +126,6 @@ RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme schem
             cell({{i, j, part}, {i + 1, j, part}, {i + 1, j + 1, part}, {i, j + 1, part}});
     }
     face_of_cell.resize(static_cast<std::size_t>(cells.count()), static_cast<std::int32_t>(f));
-    if (!whole) inner += domain.inner_count(steps);
   }
   cells.connect(std::ssize(side_at));
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "verify/host/host.h"
+#include "verify/host/host_memory.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/subject/subject_error.h"
 
@@ -45,6 +46,33 @@ void call(const lc_subject& subject, const char* function, Call&& function_call)
   if (const std::string shortage = broke ? host_shortage() : ""; !shortage.empty())
     throw HostLacks{error.what(), shortage};
   throw;
+}
+
+/// Options as a function of the subject takes them.
+inline const char* text(const std::string& options) {
+  return options.empty() ? nullptr : options.c_str();
+}
+
+/// What a subject delivered, and whether release() threw. The arrays are the host's, so the subject lets go at once;
+/// a copy, because it may clear its own.
+struct Delivered {
+  lc_tessellation arrays;
+  bool release_threw = false;
+};
+inline Delivered tessellate(const lc_subject& subject, void* instance,
+                            std::span<const std::int32_t> face_depth, int threads, Memory& memory) {
+  const lc_request request{face_depth.data(), threads, &memory, &Memory::allocate, sizeof(lc_request)};
+  lc_tessellation out{};
+  out.size = sizeof out;
+  call(subject, "tessellate",
+       [&](const char** message) { return subject.tessellate(instance, &request, &out, message); });
+  const lc_tessellation delivered = out;
+  try {
+    subject.release(instance, &out);
+  } catch (...) {
+    return {delivered, true};
+  }
+  return {delivered, false};
 }
 
 }  // namespace limitcheck::verify::detail

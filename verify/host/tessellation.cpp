@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include "verify/host/host.h"
@@ -17,11 +16,11 @@ struct Array {
   const char* name;
   const void* data;
   std::int64_t elements;
-  std::size_t element_size, alignment;
+  std::size_t numbers, size;  // of each element; and the bytes of a number, to which the array is aligned
   bool required;
   bool dispensable = false;  // the other arrays are judged without it
   const std::byte* begin() const { return static_cast<const std::byte*>(data); }
-  std::size_t bytes() const { return static_cast<std::size_t>(elements) * element_size; }
+  std::size_t bytes() const { return static_cast<std::size_t>(elements) * numbers * size; }
 };
 
 // How many elements fail `ok`, and the first.
@@ -85,7 +84,7 @@ bool memory_usable(const detail::Memory& memory, const Arrays& arrays, std::vect
       continue;
     }
     const auto* block = memory.find(a.data);
-    const bool aligned = reinterpret_cast<std::uintptr_t>(a.data) % a.alignment == 0;
+    const bool aligned = reinterpret_cast<std::uintptr_t>(a.data) % a.size == 0;
     if (block == nullptr || !aligned) {
       note(
           defects, Kind::kForeignPointer, a.name,
@@ -114,17 +113,12 @@ bool overlapping(const Arrays& arrays, std::vector<Defect>& defects) {
   return any;
 }
 
-}  // namespace
-
-std::array<double, 3> Tessellation::read(const void* array, std::int64_t v) const {
-  const std::size_t k = 3 * static_cast<std::size_t>(v);
-  if (precision_ == LC_FLOAT32) {
-    const float* p = static_cast<const float*>(array) + k;
-    return {p[0], p[1], p[2]};
-  }
-  const double* p = static_cast<const double*>(array) + k;
-  return {p[0], p[1], p[2]};
+// What a number holds that was not written.
+bool all_0xff(const std::byte* number, std::size_t size) {
+  return std::all_of(number, number + size, [](std::byte b) { return b == std::byte{0xFF}; });
 }
+
+}  // namespace
 
 std::span<const std::byte> Tessellation::bits(const void* array, std::int64_t v) const {
   const std::size_t size = 3 * coordinate_size();
@@ -132,68 +126,45 @@ std::span<const std::byte> Tessellation::bits(const void* array, std::int64_t v)
 }
 
 bool Tessellation::unwritten(const void* array, std::int64_t v) const {
-  const auto bytes = bits(array, v);
+  const std::byte* its = bits(array, v).data();
   const std::size_t size = coordinate_size();
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto coordinate = bytes.subspan(c * size, size);
-    if (std::all_of(coordinate.begin(), coordinate.end(), [](std::byte b) { return b == std::byte{0xFF}; })) {
-      return true;
-    }
-  }
-  return false;
+  return all_0xff(its, size) || all_0xff(its + size, size) || all_0xff(its + 2 * size, size);
 }
 
 bool Tessellation::indices_ok(std::int64_t t) const {
-  const auto& corners = indices_[t];
-  return std::all_of(corners.begin(), corners.end(), [this](std::uint32_t v) { return v < vertices_; });
-}
-
-bool Tessellation::face_ok(std::int64_t t) const {
-  return triangle_face_[t] >= 0 && triangle_face_[t] < std::ssize(face_sizes_);
-}
-
-bool Tessellation::triangle_ok(std::int64_t t) const {
-  return face_ok(t) && indices_ok(t);
+  const auto& corners = triangles()[t];
+  return std::all_of(corners.begin(), corners.end(), [this](std::uint32_t v) { return v < vertex_count(); });
 }
 
 std::size_t Tessellation::channel_place(std::size_t channel, std::int64_t t, int k) const {
   std::int64_t before = 0;  // components of earlier channels
   for (std::size_t c = 0; c < channel; ++c) before += channel_components_[c];
-  return static_cast<std::size_t>(3 * triangles_ * before + (3 * t + k) * channel_components_[channel]);
-}
-
-double Tessellation::number(const void* array, std::size_t at) const {
-  return precision_ == LC_FLOAT64 ? static_cast<const double*>(array)[at]
-                                  : static_cast<double>(static_cast<const float*>(array)[at]);
+  return static_cast<std::size_t>(3 * triangle_count() * before + (3 * t + k) * channel_components_[channel]);
 }
 
 std::span<const std::byte> Tessellation::channel_bits(std::size_t channel, std::int64_t t, int k) const {
-  return {static_cast<const std::byte*>(channel_values_) + channel_place(channel, t, k) * coordinate_size(),
-          static_cast<std::size_t>(channel_components_[channel]) * coordinate_size()};
-}
-
-double Tessellation::channel_value(std::size_t channel, std::int64_t t, int k, int component) const {
-  return number(channel_values_, channel_place(channel, t, k) + static_cast<std::size_t>(component));
+  return {
+      static_cast<const std::byte*>(out_.channel_values) + channel_place(channel, t, k) * coordinate_size(),
+      static_cast<std::size_t>(channel_components_[channel]) * coordinate_size()};
 }
 
 std::int64_t Tessellation::channels_unwritten(std::int64_t t) const {
   std::int64_t count = 0;
   const std::size_t size = coordinate_size();
   for (std::size_t c = 0; c < channel_count(); ++c)
-    for (const auto& [array, each] : {std::pair{channel_values_, 1}, {channel_derivatives_, 2}}) {
+    for (const auto& [array, each] : {std::pair{out_.channel_values, 1}, {out_.channel_derivatives, 2}}) {
       if (array == nullptr) continue;
       const auto numbers = static_cast<std::size_t>(3 * each * channel_components_[c]);
       const auto* from = static_cast<const std::byte*>(array) +
                          static_cast<std::size_t>(each) * channel_place(c, t, 0) * size;
-      for (std::size_t n = 0; n < numbers; ++n, from += size)
-        count += std::all_of(from, from + size, [](std::byte b) { return b == std::byte{0xFF}; });
+      for (std::size_t n = 0; n < numbers; ++n, from += size) count += all_0xff(from, size);
     }
   return count;
 }
 
 double Tessellation::channel_derivative(std::size_t channel, std::int64_t t, int k, int component,
                                         int parameter) const {
-  return number(channel_derivatives_,
+  return number(out_.channel_derivatives,
                 2 * channel_place(channel, t, k) +
                     static_cast<std::size_t>(parameter * channel_components_[channel] + component));
 }
@@ -202,8 +173,8 @@ void Tessellation::renumber_faces(std::span<const std::int32_t> to, std::int64_t
   const auto renumber = [&](std::int32_t& face) {
     face = face >= 0 && static_cast<std::size_t>(face) < to.size() ? to[face] : -1;
   };
-  for (std::int64_t v = 0; v < vertices_; ++v) renumber(provenance_[v].face);
-  for (std::int64_t t = 0; t < triangles_; ++t) renumber(triangle_face_[t]);
+  for (std::int64_t v = 0; v < out_.vertex_count; ++v) renumber(out_.provenance[v].face);
+  for (std::int64_t t = 0; t < out_.triangle_count; ++t) renumber(out_.triangle_face[t]);
   std::vector<std::int32_t> sizes(static_cast<std::size_t>(count));
   for (std::size_t f = 0; f < to.size(); ++f)
     if (to[f] >= 0) sizes[to[f]] = face_sizes_[f];
@@ -217,76 +188,58 @@ bool Tessellation::provenance_ok(std::int64_t v) const {
   return domain.contains(point_of(p), domain.steps(p.denominator));
 }
 
-void Tessellation::inspect(const lc_tessellation& out, const lc_capabilities& promised,
+void Tessellation::inspect(lc_tessellation out, const lc_capabilities& promised,
                            const std::function<Matching(const Bare&)>& find_places) {
   const bool delivered = !find_places;
   const std::size_t real = coordinate_size();
   std::size_t components = 0;  // of all channels
   for (const std::int32_t c : channel_components_) components += static_cast<std::size_t>(c);
   const bool channels = components > 0, derivatives = channels && promised.channel_derivatives != 0;
+  if (!channels) out.channel_values = nullptr;
+  if (!derivatives) out.channel_derivatives = nullptr;
   const Arrays arrays{{
-      {"positions", out.positions, out.vertex_count, 3 * real, real, true},
-      {"normals", out.normals, out.vertex_count, 3 * real, real, promised.normals != 0, true},
-      {"provenance", out.provenance, out.vertex_count, sizeof(lc_provenance), alignof(lc_provenance),
-       delivered},
-      {"triangles", out.triangles, out.triangle_count, 3 * sizeof(std::uint32_t), alignof(std::uint32_t),
+      {"positions", out.positions, out.vertex_count, 3, real, true},
+      {"normals", out.normals, out.vertex_count, 3, real, promised.normals != 0, true},
+      {"provenance", out.provenance, out.vertex_count, 4, 4, delivered},
+      {"triangles", out.triangles, out.triangle_count, 3, 4, true},
+      {"triangle_face", out.triangle_face, out.triangle_count, 1, 4, delivered},
+      {"corner", out.corner, out.vertex_count, 1, 4, false},
+      {"channel_values", out.channel_values, out.triangle_count, 3 * components, real, channels, true},
+      {"channel_derivatives", out.channel_derivatives, out.triangle_count, 6 * components, real, derivatives,
        true},
-      {"triangle_face", out.triangle_face, out.triangle_count, sizeof(std::int32_t), alignof(std::int32_t),
-       delivered},
-      {"corner", out.corner, out.vertex_count, sizeof(std::int32_t), alignof(std::int32_t), false},
-      {"channel_values", channels ? out.channel_values : nullptr, out.triangle_count, 3 * components * real,
-       real, channels, true},
-      {"channel_derivatives", derivatives ? out.channel_derivatives : nullptr, out.triangle_count,
-       6 * components * real, real, derivatives, true},
   }};
   find_overruns(*memory_, arrays, overruns_);  // they are meaningful whatever else is wrong
   if (!counts_usable(out, defects_) || !memory_usable(*memory_, arrays, defects_) ||
       overlapping(arrays, defects_))
     return;
 
-  vertices_ = out.vertex_count;
-  triangles_ = out.triangle_count;
-  positions_ = out.positions;
-  normals_ = out.normals;
-  provenance_ = out.provenance;
-  indices_ = reinterpret_cast<const std::array<std::uint32_t, 3>*>(out.triangles);
-  triangle_face_ = out.triangle_face;
-  corner_ = out.corner;
-  channel_values_ = channels ? out.channel_values : nullptr;
-  channel_derivatives_ = derivatives ? out.channel_derivatives : nullptr;
+  out_ = out;
   count_bad(
-      defects_, Kind::kIndexOutOfRange, "triangles", triangles_,
+      defects_, Kind::kIndexOutOfRange, "triangles", triangle_count(),
       [&](std::int64_t t) { return indices_ok(t); }, "triangles name a vertex that does not exist");
-  if (delivered) {
-    inspect_contents();
-  } else {
-    take_places(find_places);
-  }
-}
-
-void Tessellation::inspect_contents() {
+  if (!delivered) return take_places(find_places);
   count_bad(
-      defects_, Kind::kFaceOutOfRange, "triangle_face", triangles_,
+      defects_, Kind::kFaceOutOfRange, "triangle_face", triangle_count(),
       [&](std::int64_t t) { return face_ok(t); }, "triangles name a control face that does not exist");
   count_bad(
-      defects_, Kind::kProvenanceOutOfRange, "provenance", vertices_,
+      defects_, Kind::kProvenanceOutOfRange, "provenance", vertex_count(),
       [&](std::int64_t v) { return provenance_ok(v); }, "vertices name a place outside the control mesh");
 }
 
 void Tessellation::take_places(const std::function<Matching(const Bare&)>& find_places) {
   if (defects_.empty()) {
     matching_ = std::make_shared<Matching>(
-        find_places({vertices_, triangles(), [this](std::int64_t v) { return position(v); }}));
+        find_places({vertex_count(), triangles(), [this](std::int64_t v) { return position(v); }}));
     if (matching_->not_judged) throw NotAsked("without provenance: " + matching_->failure);
     if (!matching_->failure.empty()) note(defects_, Kind::kNotTheMesh, "triangles", matching_->failure);
   }
   if (!defects_.empty()) {
-    vertices_ = triangles_ = 0;
+    out_.vertex_count = out_.triangle_count = 0;
     return;
   }
-  provenance_ = matching_->provenance.data();
-  corner_ = matching_->corner.data();
-  triangle_face_ = matching_->triangle_face.data();
+  out_.provenance = matching_->provenance.data();
+  out_.corner = matching_->corner.data();
+  out_.triangle_face = matching_->triangle_face.data();
 }
 
 }  // namespace limitcheck::verify

@@ -11,7 +11,7 @@
 
 #include "reference/mesh/sharp_tags.h"
 #include "verify/evidence/faces_around.h"
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 

@@ -14,12 +14,12 @@
 #include "reference/loop/refine.h"
 #include "verify/audit/audit.h"
 #include "verify/causes/causes.h"
-#include "verify/evidence/lattice.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/peers/test_opensubdiv.h"
 #include "verify/recognise/recognise.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/adapter.h"
+#include "verify/subject/lattice.h"
 #include "verify/subject/registry.h"
 
 namespace limitcheck::verify {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/relations/refusal.h"
+#include "verify/relations/relations.h"
 
 #include <fmt/core.h>
 

@@ -4,8 +4,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <limits>
@@ -60,15 +62,25 @@ bool same_bits(const Vector& a, const Vector& b) {
   });
 }
 
-// Of a position and a normal, or of a position alone.
-std::uint64_t digest(const Vector& position, const Vector* normal) {
-  std::uint64_t bits = 0;
-  const auto add = [&](const Vector& v) {
-    for (const double x : v) bits = data::SplitMix64(bits ^ std::bit_cast<std::uint64_t>(x)).next();
-  };
-  add(position);
-  if (normal != nullptr) add(*normal);
+// The bits with those of more numbers.
+template <std::size_t N>
+std::uint64_t digest(std::uint64_t bits, const std::array<double, N>& more) {
+  for (const double x : more) bits = data::SplitMix64(bits ^ std::bit_cast<std::uint64_t>(x)).next();
   return bits;
+}
+// Of a position and the normal, if there is one, which a variant is brought back from.
+std::uint64_t digest(const Tessellation& t, std::int64_t vertex, const Variant& v) {
+  const std::uint64_t position = digest(0, v.position(t.position(vertex)));
+  return t.has_normals() ? digest(position, v.normal(t.normal(vertex))) : position;
+}
+
+// How many of the first list the second has not.
+std::int64_t lost(std::vector<std::uint64_t> list, std::vector<std::uint64_t> other) {
+  std::sort(list.begin(), list.end());
+  std::sort(other.begin(), other.end());
+  std::vector<std::uint64_t> gone;
+  std::set_difference(list.begin(), list.end(), other.begin(), other.end(), std::back_inserter(gone));
+  return std::ssize(gone);
 }
 
 // From harmless to fatal: the worst of a row is its status.
@@ -127,31 +139,37 @@ class SharedPointBits {
 
 }  // namespace
 
+std::int64_t different_points(const Tessellation& a, const Tessellation& b) {
+  const auto points = [](const Tessellation& t) {
+    std::vector<std::uint64_t> all;
+    for (std::int64_t v = 0; v < t.vertex_count(); ++v) {
+      const std::uint64_t position = digest(0, t.position(v));
+      all.push_back(t.has_normals() ? digest(position, t.normal(v)) : position);
+    }
+    return all;
+  };
+  return lost(points(a), points(b)) + std::abs(b.vertex_count() - a.vertex_count()) +
+         std::abs(b.triangle_count() - a.triangle_count());
+}
+
 std::int64_t different_channels(const Tessellation& a, const Tessellation& b) {
   const auto corners = [](const Tessellation& t) {
     std::vector<std::uint64_t> all;
     for (std::int64_t k = 0; t.channel_count() > 0 && k < t.triangle_count(); ++k)
       for (int corner = 0; corner < 3 && t.triangle_ok(k); ++corner) {
         const Vector position = t.position(t.triangles()[k][static_cast<std::size_t>(corner)]);
-        std::uint64_t bits = digest(position, nullptr) ^ static_cast<std::uint64_t>(t.triangle_face()[k]);
-        const auto add = [&](double x) {
-          bits = data::SplitMix64(bits ^ std::bit_cast<std::uint64_t>(x)).next();
-        };
+        std::uint64_t bits = digest(0, position) ^ static_cast<std::uint64_t>(t.triangle_face()[k]);
         for (std::size_t c = 0; c < t.channel_count(); ++c)
           for (int component = 0; component < t.components(c); ++component) {
-            add(t.channel_value(c, k, corner, component));
+            bits = digest(bits, std::array{t.channel_value(c, k, corner, component)});
             for (int by = 0; t.has_channel_derivatives() && by < 2; ++by)
-              add(t.channel_derivative(c, k, corner, component, by));
+              bits = digest(bits, std::array{t.channel_derivative(c, k, corner, component, by)});
           }
         all.push_back(bits);
       }
-    std::sort(all.begin(), all.end());
     return all;
   };
-  const auto mine = corners(a), other = corners(b);
-  std::vector<std::uint64_t> lost;
-  std::set_difference(mine.begin(), mine.end(), other.begin(), other.end(), std::back_inserter(lost));
-  return static_cast<std::int64_t>(lost.size());
+  return lost(corners(a), corners(b));
 }
 
 Compared::Compared(const Evidence& e)
@@ -177,10 +195,7 @@ Compared::Compared(const Evidence& e)
       shared.add(e.tessellation, v, at.id, at.side);
   }
   split_ = shared.unlike();
-  for (Digest& d : several_) {
-    const Vector normal = e.tessellation.has_normals() ? e.tessellation.normal(d.vertex) : Vector{};
-    d.bits = digest(e.tessellation.position(d.vertex), e.tessellation.has_normals() ? &normal : nullptr);
-  }
+  for (Digest& d : several_) d.bits = digest(e.tessellation, d.vertex, same_);
   std::sort(several_.begin(), several_.end());
 }
 
@@ -294,10 +309,7 @@ std::optional<std::int64_t> Compared::with_same_bits(const Tessellation& t, std:
                                                      Key key) const {
   Digest least{key, 0, 0};
   const bool same_arrays = t.has_normals() == e_.tessellation.has_normals();
-  if (same_arrays) {
-    const Vector normal = t.has_normals() ? v.normal(t.normal(k)) : Vector{};
-    least.bits = digest(v.position(t.position(k)), t.has_normals() ? &normal : nullptr);
-  }
+  if (same_arrays) least.bits = digest(t, k, v);
   for (auto d = std::lower_bound(several_.begin(), several_.end(), least);
        d != several_.end() && d->key == key && (!same_arrays || d->bits == least.bits); ++d)
     if (same(t, k, v, d->vertex)) return d->vertex;

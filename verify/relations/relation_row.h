@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -29,6 +28,8 @@ struct Comparison {
   std::string message;
 };
 
+/// How many points of `a` have positions and normals that those of `b` have not; a face may name them otherwise.
+std::int64_t different_points(const Tessellation& a, const Tessellation& b);
 /// How many corners of triangles of `a` have no corner of `b` in the same face, at the same position, with the same
 /// bits of channels and their derivatives.
 std::int64_t different_channels(const Tessellation& a, const Tessellation& b);

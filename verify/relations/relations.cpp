@@ -4,11 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <new>
@@ -22,33 +18,27 @@
 namespace limitcheck::verify {
 namespace {
 
-// How many points of the one have positions and normals that the other has not; a face may name them
-// otherwise.
-std::int64_t different_points(const Tessellation& a, const Tessellation& b) {
-  const auto points = [](const Tessellation& t) {
-    using Bits = std::array<std::uint64_t, 3>;
-    std::vector<std::pair<Bits, Bits>> all;
-    for (std::int64_t v = 0; v < t.vertex_count(); ++v)
-      all.emplace_back(std::bit_cast<Bits>(t.position(v)),
-                       t.has_normals() ? std::bit_cast<Bits>(t.normal(v)) : Bits{});
-    std::sort(all.begin(), all.end());
-    return all;
-  };
-  const auto mine = points(a), other = points(b);
-  std::vector<typename decltype(mine)::value_type> lost;
-  std::set_difference(mine.begin(), mine.end(), other.begin(), other.end(), std::back_inserter(lost));
-  return static_cast<std::int64_t>(lost.size()) + std::abs(b.vertex_count() - a.vertex_count()) +
-         std::abs(b.triangle_count() - a.triangle_count());
-}
-
 // Finds each row. A subject may break down in any request, which must not affect the other rows.
 class Relations {
  public:
   Relations(const AuditSubject& subject, const Evidence& e, int threads)
       : subject_(subject), e_(e), threads_(threads), compared_(e) {}
 
-  // Twice at one depth, with 1 and 4 threads: the greatest at which all faces are kDeep triangles.
-  void deep_determinism(RelationRow& row) const {
+  // Again, if so asked; and twice at one depth, with 1 and 4 threads: the greatest at which all faces are kDeep
+  // triangles.
+  Result determinism(bool again) const {
+    RelationRow row = begin("determinism", "points", 0);
+    int request = 1;
+    std::string what = "asked again";
+    if (again)
+      row.ask(what, e_.mesh, [&](Session& session) {
+        for (const int threads : {1, 4, 1, 2}) {
+          what = fmt::format("request {}, threads: {}", ++request, threads);
+          const Tessellation t = session.tessellate(e_.face_depth, threads);
+          row.inspect(what, t);
+          row.judge(what, compared_.bits_with(t, "in the first"), false);
+        }
+      });
     constexpr double kDeep = 8192;
     double triangles = 0;  // at depth 0
     for (std::size_t f = 0; f < e_.mesh.faces.size(); ++f)
@@ -56,35 +46,14 @@ class Relations {
           e_.lattice.scheme() == data::Scheme::kLoop ? 1 : .5 * static_cast<double>(e_.mesh.faces[f].size());
     int depth = -1;
     while (depth < e_.capabilities.max_depth && std::ldexp(triangles, 2 * (depth + 1)) <= kDeep) ++depth;
-    if (depth < 0) return;
-    const std::string what = fmt::format("at depth {} with 1 thread and with 4", depth);
+    if (depth < 0) return done(row);
+    what = fmt::format("at depth {} with 1 thread and with 4", depth);
     row.ask(what, e_.mesh, [&](Session& session) {
       const Tessellation a = session.tessellate(depth, 1), b = session.tessellate(depth, 4);
       const auto bad = different_points(a, b) + different_channels(a, b);
       row.count(bad, a.vertex_count());
       if (bad > 0) row.note(Status::kFinding, fmt::format("{}: {} points have other bits", what, bad));
     });
-  }
-
-  Result deep_determinism() const {
-    RelationRow row = begin("determinism", "points", 0);
-    deep_determinism(row);
-    return done(row);
-  }
-
-  Result determinism() const {
-    RelationRow row = begin("determinism", "points", 0);
-    int request = 1;
-    std::string what = "asked again";
-    row.ask(what, e_.mesh, [&](Session& session) {
-      for (const int threads : {1, 4, 1, 2}) {
-        what = fmt::format("request {}, threads: {}", ++request, threads);
-        const Tessellation t = session.tessellate(e_.face_depth, threads);
-        row.inspect(what, t);
-        row.judge(what, compared_.bits_with(t, "in the first"), false);
-      }
-    });
-    deep_determinism(row);
     return done(row);
   }
 
@@ -299,7 +268,7 @@ struct Rows {
   std::vector<Result> results;
 
   void add(std::string_view name, const std::function<Result()>& find) {
-    if (on_row && !on_row(name)) return;
+    if (!on_row(name)) return;
     const Clock clock;
     try {
       results.push_back(find());
@@ -337,31 +306,21 @@ std::vector<std::string_view> relation_rows_of(const data::ControlMesh& mesh, da
 }
 
 std::vector<Result> check_relations(const AuditSubject& subject, const Evidence& e, int threads,
-                                    std::vector<Refusal>& refusals,
+                                    std::vector<Refusal>& refusals, bool again,
                                     const std::function<bool(std::string_view)>& on_row) {
   const Relations relations(subject, e, threads);
   Rows rows{e, on_row, {}};
-  rows.add("determinism", [&] { return relations.determinism(); });
+  rows.add("determinism", [&] { return relations.determinism(again); });
   for (const Relation& r : surface_relations())
     if (r.applies(e.mesh, e.lattice)) rows.add(r.row, [&] { return relations.relation(r); });
   if (has_semi_sharp(e.mesh))
     rows.add("fractional-sharpness", [&] { return relations.fractional_sharpness(); });
   rows.add("state", [&] {
     const bool asked = !rows.results.empty() && rows.results.front().check == "determinism";
-    return relations.state(asked ? rows.results.front() : relations.determinism());
+    return relations.state(asked ? rows.results.front() : relations.determinism(true));
   });
   rows.add("degenerate-geometry", [&] { return relations.degenerate_geometry(); });
   rows.add("rejected-inputs", [&] { return relations.rejected_inputs(refusals); });
-  return std::move(rows.results);
-}
-
-std::vector<Result> check_cheap_relations(const AuditSubject& subject, const Evidence& e, int threads,
-                                          const std::function<bool(std::string_view)>& on_row) {
-  const Relations relations(subject, e, threads);
-  Rows rows{e, on_row, {}};
-  rows.add("determinism", [&] { return relations.deep_determinism(); });
-  for (const Relation& r : surface_relations())
-    if (r.row == "corner-rotation") rows.add(r.row, [&] { return relations.relation(r); });
   return std::move(rows.results);
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/relations/variants.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,42 +21,24 @@ std::vector<T> in_order(const std::vector<T>& list, const std::vector<std::int32
   return result;
 }
 
-using Variants = std::vector<Variant>;
-
-// The request as it was, with a change.
-Variant variant(const Evidence& e, std::string name, bool same_numbers,
-                const std::function<void(Variant&)>& change) {
-  Variant v = identity(e);
-  v.name = std::move(name);
-  v.same_numbers = same_numbers;
-  change(v);
-  return v;
+void face_order(const Evidence& e, Variant& v) {
+  data::SplitMix64 random(1);
+  v.order_faces(shuffled(v.face.size(), random));
+  for (std::size_t f = 0; f < v.face.size(); ++f) v.face_depth[f] = e.face_depth[v.face[f]];
 }
 
-Variants face_order(const Evidence& e) {
-  return {variant(e, "with its faces in another order", true, [&](Variant& v) {
-    data::SplitMix64 random(1);
-    v.order_faces(shuffled(v.face.size(), random));
-    for (std::size_t f = 0; f < v.face.size(); ++f) v.face_depth[f] = e.face_depth[v.face[f]];
-  })};
+void vertex_order(const Evidence& e, Variant& v) {
+  data::SplitMix64 random(2);
+  v.number_vertices(shuffled(e.mesh.positions.size(), random));
 }
 
-Variants vertex_order(const Evidence& e) {
-  return {variant(e, "with its vertices numbered otherwise", true, [&](Variant& v) {
-    data::SplitMix64 random(2);
-    v.number_vertices(shuffled(e.mesh.positions.size(), random));
-  })};
-}
-
-Variants corner_rotation(const Evidence& e) {
-  // Some stay as they are, so that faces meet in every way; the first does not, or a mesh of few may be the same.
-  return {variant(e, "with some of its faces begun at other corners", true, [&](Variant& v) {
-    data::SplitMix64 random(3);
-    for (std::size_t f = 0; f < v.face.size(); ++f) {
-      const auto corners = static_cast<std::uint64_t>(v.mesh.faces[f].size());
-      v.turn_face(f, f == 0 ? 1 : static_cast<int>(random.next() % corners));
-    }
-  })};
+// Some stay as they are, so that faces meet in every way; the first does not, or a mesh of few may be the same.
+void corner_rotation(const Evidence&, Variant& v) {
+  data::SplitMix64 random(3);
+  for (std::size_t f = 0; f < v.face.size(); ++f) {
+    const auto corners = static_cast<std::uint64_t>(v.mesh.faces[f].size());
+    v.turn_face(f, f == 0 ? 1 : static_cast<int>(random.next() % corners));
+  }
 }
 
 void move(Variant& v, const std::function<Vector(const Vector&)>& there) {
@@ -69,49 +49,40 @@ void move(Variant& v, const std::function<Vector(const Vector&)>& there) {
   }
 }
 
-Variants mirror(const Evidence& e) {
-  return {variant(e, "mirrored", false, [](Variant& v) {
-    v.position = v.normal = [](const Vector& p) { return Vector{-p[0], p[1], p[2]}; };
-    move(v, v.position);
-    v.mirror_faces();
-  })};
+void mirror(const Evidence&, Variant& v) {
+  v.position = v.normal = [](const Vector& p) { return Vector{-p[0], p[1], p[2]}; };
+  move(v, v.position);
+  v.mirror_faces();
 }
 
-Variants rotation(const Evidence& e) {
-  return {variant(e, "turned", false, [](Variant& v) {
-    move(v, [](const Vector& p) { return Vector{p[1], -p[2], -p[0]}; });
-    v.position = v.normal = [](const Vector& p) { return Vector{-p[2], p[0], -p[1]}; };
-  })};
+void rotation(const Evidence&, Variant& v) {
+  move(v, [](const Vector& p) { return Vector{p[1], -p[2], -p[0]}; });
+  v.position = v.normal = [](const Vector& p) { return Vector{-p[2], p[0], -p[1]}; };
 }
 
-Variants scaling(const Evidence& e) {
+Relation::Change scaled(int exponent) {
   const auto times = [](int k) {
     return [k](const Vector& p) {
       return Vector{std::ldexp(p[0], k), std::ldexp(p[1], k), std::ldexp(p[2], k)};
     };
   };
-  Variants all;
-  for (const int exponent : {10, -10, 40, -40})
-    all.push_back(variant(e, fmt::format("times 2^{}", exponent), true, [&](Variant& v) {
-      move(v, times(exponent));
-      v.magnitude = e.magnitude;  // compared after scaling back
-      v.position = times(-exponent);
-    }));
-  return all;
+  return [=](const Evidence& e, Variant& v) {
+    move(v, times(exponent));
+    v.magnitude = e.magnitude;  // compared after scaling back
+    v.position = times(-exponent);
+  };
 }
 
-// By some diagonals, and by many times as many, so that some bits are left.
-Variants translation(const Evidence& e) {
-  Variants all;
-  for (const int exponent : {0, e.capabilities.precision == LC_FLOAT32 ? 10 : 20})
-    all.push_back(variant(e, exponent == 0 ? "moved" : "moved far away", false, [&](Variant& v) {
-      const double step = std::ldexp(1.0, std::ilogb(std::max(e.diagonal, 1e-30)) + exponent);
-      const Vector by{step, -2 * step, 3 * step};
-      move(v, [&](const Vector& p) { return p + by; });
-      v.position = [by](const Vector& p) { return p - by; };
-      v.normals = false;
-    }));
-  return all;
+// By some diagonals, or by many times as many, so that some bits are left.
+Relation::Change moved(bool far) {
+  return [far](const Evidence& e, Variant& v) {
+    const int exponent = !far ? 0 : e.capabilities.precision == LC_FLOAT32 ? 10 : 20;
+    const double step = std::ldexp(1.0, std::ilogb(std::max(e.diagonal, 1e-30)) + exponent);
+    const Vector by{step, -2 * step, 3 * step};
+    move(v, [&](const Vector& p) { return p + by; });
+    v.position = [by](const Vector& p) { return p - by; };
+    v.normals = false;
+  };
 }
 
 bool always(const data::ControlMesh&, const Lattice&) {
@@ -145,13 +116,11 @@ std::vector<int> lasting_edges_at(const data::ControlMesh& mesh, const Lattice& 
   return count;
 }
 
-Variants crease_order(const Evidence& e) {
-  return {variant(e, "with its sharp edges and vertices in another order", true, [](Variant& v) {
-    data::Sharpness& sharp = v.mesh.sharpness;
-    std::reverse(sharp.edges.begin(), sharp.edges.end());
-    std::reverse(sharp.vertices.begin(), sharp.vertices.end());
-    for (data::SharpEdge& edge : sharp.edges) std::swap(edge.a, edge.b);
-  })};
+void crease_order(const Evidence&, Variant& v) {
+  data::Sharpness& sharp = v.mesh.sharpness;
+  std::reverse(sharp.edges.begin(), sharp.edges.end());
+  std::reverse(sharp.vertices.begin(), sharp.vertices.end());
+  for (data::SharpEdge& edge : sharp.edges) std::swap(edge.a, edge.b);
 }
 
 // Whether some edge or vertex, or an edge, is of such a sharpness.
@@ -166,47 +135,38 @@ bool any_is(const data::ControlMesh& mesh, bool (*of)(float)) {
 bool has_infinite(const data::ControlMesh& mesh, const Lattice&) {
   return any_is(mesh, lasts);
 }
-Variants infinite_sharpness(const Evidence& e) {
-  const auto with = [&](const char* name, float sharpness) {
-    return variant(e, name, true, [&](Variant& v) {
-      const auto replace = [&](auto& tags) {
-        for (auto& tag : tags)
-          if (lasts(tag.sharpness)) tag.sharpness = sharpness;
-      };
-      replace(v.mesh.sharpness.edges);
-      replace(v.mesh.sharpness.vertices);
-    });
+Relation::Change with_infinite(float sharpness) {
+  return [sharpness](const Evidence&, Variant& v) {
+    const auto replace = [&](auto& tags) {
+      for (auto& tag : tags)
+        if (lasts(tag.sharpness)) tag.sharpness = sharpness;
+    };
+    replace(v.mesh.sharpness.edges);
+    replace(v.mesh.sharpness.vertices);
   };
-  return {with("with the sharpness 10 where it is more", data::kInfiniteSharpness),
-          with("with the sharpness 100 where it is 10 and more", 100)};
 }
 
 bool has_lasting_crease_and_boundary(const data::ControlMesh& mesh, const Lattice& lattice) {
-  return !boundary_of(lattice).empty() && any_is(mesh.sharpness.edges, lasts);
+  return any_is(mesh.sharpness.edges, lasts) && !boundary_of(lattice).empty();
 }
-Variants boundary_crease(const Evidence& e) {
-  return {variant(e, "with the edges of its boundary sharp for ever, which they are", true, [&](Variant& v) {
-    std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
-    const auto boundary = boundary_of(e.lattice);
-    std::erase_if(sharp, [&](const data::SharpEdge& tag) {
-      const Edge edge = std::minmax(tag.a, tag.b);
-      return std::any_of(boundary.begin(), boundary.end(),
-                         [&](const Lattice::Edge& b) { return Edge(b.a, b.b) == edge; });
-    });
-    for (const Lattice::Edge& edge : boundary) sharp.push_back({edge.a, edge.b, data::kInfiniteSharpness});
-  })};
+void boundary_crease(const Evidence& e, Variant& v) {
+  std::vector<data::SharpEdge>& sharp = v.mesh.sharpness.edges;
+  const auto boundary = boundary_of(e.lattice);
+  std::erase_if(sharp, [&](const data::SharpEdge& tag) {
+    const Edge edge = std::minmax(tag.a, tag.b);
+    return std::any_of(boundary.begin(), boundary.end(),
+                       [&](const Lattice::Edge& b) { return Edge(b.a, b.b) == edge; });
+  });
+  for (const Lattice::Edge& edge : boundary) sharp.push_back({edge.a, edge.b, data::kInfiniteSharpness});
 }
 
 // A cut is the same surface if sharpness lasts wherever there is some, and no sharp edge ends in a dart.
 bool can_be_cut(const data::ControlMesh& mesh, const Lattice& lattice) {
-  if (has_semi_sharp(mesh)) return false;
+  if (has_semi_sharp(mesh) || !any_is(mesh.sharpness.edges, lasts)) return false;
   const std::vector<int> count = lasting_edges_at(mesh, lattice);
-  return any_is(mesh.sharpness.edges, lasts) &&
-         std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
+  return std::none_of(count.begin(), count.end(), [](int n) { return n == 1; });
 }
-Variants cut_by_hand(const Evidence& e) {
-  Variant v = identity(e);
-  v.name = "cut along its sharp edges, with a copy of their points for each side";
+void cut_by_hand(const Evidence& e, Variant& v) {
   data::ControlMesh& mesh = v.mesh;
   const reference::Topology topology(mesh.positions.size(), mesh.faces);
   const auto cut = reference::Sharpness(topology, mesh.sharpness).cut(topology);
@@ -220,7 +180,6 @@ Variants cut_by_hand(const Evidence& e) {
     if (cut.states[w] == reference::VertexState::kHeld)
       mesh.sharpness.vertices.push_back({static_cast<std::int32_t>(w), data::kInfiniteSharpness});
   }
-  return {v};
 }
 
 bool any(const data::ControlMesh& mesh, const Lattice&) {
@@ -290,19 +249,42 @@ Variant identity(const Evidence& e) {
   return v;
 }
 
+std::vector<Variant> Relation::variants(const Evidence& e) const {
+  std::vector<Variant> all;
+  for (const Way& way : ways) {
+    Variant& v = all.emplace_back(identity(e));
+    v.name = way.name;
+    v.same_numbers = way.same_numbers;
+    way.change(e, v);
+  }
+  return all;
+}
+
 const std::vector<Relation>& surface_relations() {
   static const std::vector<Relation> all{
-      {"face-order", face_order, always},
-      {"vertex-order", vertex_order, always},
-      {"corner-rotation", corner_rotation, always},
-      {"mirror", mirror, always},
-      {"rotation", rotation, always},
-      {"scaling", scaling, always},
-      {"translation", translation, always},
-      {"crease-order", crease_order, any},
-      {"infinite-sharpness", infinite_sharpness, has_infinite},
-      {"boundary-crease", boundary_crease, has_lasting_crease_and_boundary},
-      {"cut-by-hand", cut_by_hand, can_be_cut}};
+      {"face-order", always, {{"with its faces in another order", true, face_order}}},
+      {"vertex-order", always, {{"with its vertices numbered otherwise", true, vertex_order}}},
+      {"corner-rotation", always, {{"with some of its faces begun at other corners", true, corner_rotation}}},
+      {"mirror", always, {{"mirrored", false, mirror}}},
+      {"rotation", always, {{"turned", false, rotation}}},
+      {"scaling",
+       always,
+       {{"times 2^10", true, scaled(10)},
+        {"times 2^-10", true, scaled(-10)},
+        {"times 2^40", true, scaled(40)},
+        {"times 2^-40", true, scaled(-40)}}},
+      {"translation", always, {{"moved", false, moved(false)}, {"moved far away", false, moved(true)}}},
+      {"crease-order", any, {{"with its sharp edges and vertices in another order", true, crease_order}}},
+      {"infinite-sharpness",
+       has_infinite,
+       {{"with the sharpness 10 where it is more", true, with_infinite(data::kInfiniteSharpness)},
+        {"with the sharpness 100 where it is 10 and more", true, with_infinite(100)}}},
+      {"boundary-crease",
+       has_lasting_crease_and_boundary,
+       {{"with the edges of its boundary sharp for ever, which they are", true, boundary_crease}}},
+      {"cut-by-hand",
+       can_be_cut,
+       {{"cut along its sharp edges, with a copy of their points for each side", false, cut_by_hand}}}};
   return all;
 }
 

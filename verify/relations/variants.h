@@ -58,10 +58,18 @@ Variant identity(const Evidence& e);
 
 /// One row of the audit and the variants it compares.
 struct Relation {
+  using Change = std::function<void(const Evidence&, Variant&)>;  // of the request as it was
+  struct Way {
+    const char* name;
+    bool same_numbers;
+    Change change;
+  };
   std::string_view row;
-  std::vector<Variant> (*variants)(const Evidence&);
   /// Whether there is anything to compare.
   bool (*applies)(const data::ControlMesh&, const Lattice&);
+  std::vector<Way> ways;
+
+  std::vector<Variant> variants(const Evidence& e) const;
 };
 
 /// From face-order to cut-by-hand, in the order of the table (relations.h says what each is). From crease-order on

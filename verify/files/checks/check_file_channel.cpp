@@ -103,8 +103,7 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
     high[i % 2] = std::max(high[i % 2], channel.values[i]);
     largest = std::max(largest, std::abs(channel.values[i]));
   }
-  double diagonal = std::hypot(high[0] - low[0], high[1] - low[1]);
-  if (!(diagonal > 0)) diagonal = largest > 0 ? largest : 1;  // of a constant channel
+  const double diagonal = unit_of_length(std::hypot(high[0] - low[0], high[1] - low[1]), largest);
 
   // glTF counts the second coordinate from the top of the picture, all others from its foot.
   const bool flipped = data::io::is_gltf(e.tessellation.name) != data::io::is_gltf(e.control_name);
@@ -116,12 +115,9 @@ std::vector<Result> check_file_channel(const FileEvidence& e) {
   r.decades = decades(found.error);
   if (s.worst_at >= 0) {
     const auto at = static_cast<std::size_t>(s.worst_at);
-    r.witness = e.at_vertex(corners[at].vertex);
-    r.witness->face = corners[at].at.face;
-    r.witness->corner = corners[at].at.corner;
+    r.witness = e.at_point(corners[at].at);
+    r.witness->vertex = corners[at].vertex;
     name_channel(*r.witness, channel);
-    r.witness->l1 = fmt::format("{}", corners[at].at.first);
-    r.witness->l2 = fmt::format("{}", corners[at].at.second);
     r.witness->expected = {found.expected[at].begin(), found.expected[at].end()};
     r.witness->got = {corners[at].got.begin(), corners[at].got.end()};
   }

@@ -30,8 +30,7 @@ Result row(const FileEvidence& e, const char* check, const std::vector<double>& 
   if (s.worst_at >= 0) {
     const auto vertex = static_cast<std::int32_t>(s.worst_at);
     r.witness = e.at_vertex(vertex);
-    r.witness->expected = list(expected(vertex));
-    r.witness->got = list(e.tessellation.positions[vertex]);
+    r.witness->show(expected(vertex), e.tessellation.positions[vertex]);
     if (s.worst) r.worst_absolute = *s.worst * e.surface.diagonal();
   }
   return r;
@@ -319,8 +318,7 @@ std::vector<Result> check_file_normals(const FileEvidence& e) {
   r.decades = decades(angle);
   if (s.worst_at >= 0) {
     r.witness = e.at_vertex(normals[s.worst_at].vertex);
-    r.witness->expected = list(expected[s.worst_at]);
-    r.witness->got = list(normals[s.worst_at].direction);
+    r.witness->show(expected[s.worst_at], normals[s.worst_at].direction);
   }
   if (undefined > 0) say(r, fmt::format("{} more where the surface has no normal", undefined));
   if (shared > 0)

@@ -42,14 +42,9 @@ bool thin_at(const FileEvidence& e, const FacePoint& at, double spacing) {
 // The same in any face at one of the points.
 bool surface_is_thin(const FileEvidence& e, const std::array<std::int32_t, 3>& points, double spacing) {
   const Domain& domain = e.surface.domain();
-  for (const std::int32_t p : points) {
-    const FacePoint& at = e.place[p];
-    for (int k = 0; k < domain.chart().corners(); ++k)
-      for (const std::int32_t face : domain.faces_at(domain.vertex(at.face, k))) {
-        FacePoint there;
-        if (domain.express(at, face, there) && thin_at(e, there, spacing)) return true;
-      }
-  }
+  for (const std::int32_t p : points)
+    for (const std::int32_t face : faces_with(domain, e.place[p]))
+      if (FacePoint there; domain.express(e.place[p], face, there) && thin_at(e, there, spacing)) return true;
   return false;
 }
 

@@ -43,19 +43,14 @@ bool on_limit_boundary(const FileEvidence& e, const OpenEdge& edge) {
   const Domain& domain = e.surface.domain();
   const Chart chart = domain.chart();
   if (off_the_surface(e, edge.from) || off_the_surface(e, edge.to)) return false;
-  for (const std::int32_t p : {edge.from, edge.to}) {
-    const FacePoint& at = e.place[p];
-    std::vector<std::int32_t> faces{at.face};
-    if (const int k = chart.corner_at(at.l); k >= 0)
-      for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
-    for (const std::int32_t face : faces) {
+  for (const std::int32_t p : {edge.from, edge.to})
+    for (const std::int32_t face : faces_with(domain, e.place[p])) {
       FacePoint x, y;
       if (!domain.express(e.place[edge.from], face, x) || !domain.express(e.place[edge.to], face, y))
         continue;
       for (int k = 0; k < chart.corners(); ++k)
         if (chart.height(k, x.l) == 0 && chart.height(k, y.l) == 0 && is_rim(e, face, k)) return true;
     }
-  }
   return false;
 }
 
@@ -283,7 +278,7 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
   const auto part = [&](std::int64_t count, const char* what, bool bad = true) {
     if (count == 0) return;
     if (bad) r.bad += count;
-    say(r, fmt::format("{} {}", count, what), ", ");
+    r.message += fmt::format("{}{} {}", r.message.empty() ? "" : ", ", count, what);
   };
   part(static_cast<std::int64_t>(cracks.size()), "open edges that are no boundary");
   r.not_finite = report.degenerate_triangles;

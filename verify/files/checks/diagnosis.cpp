@@ -196,8 +196,7 @@ Result recognised_row(const FileEvidence& e, const Sampled& sampled, const Guess
   std::optional<Witness> worst;
   if (const auto k = statistics.worst_at; k >= 0) {
     worst = e.at_vertex(static_cast<std::int32_t>(e.merged.vertex_of[sampled.placed[k]]));
-    worst->expected = list(cloud[there[k].index]);
-    worst->got = list(points[k]);
+    worst->show(cloud[there[k].index], points[k]);
   }
   Result row = e.result("file-recognised");
   say_recognised(row, what, statistics, bound, worst);

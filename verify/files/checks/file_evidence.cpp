@@ -16,15 +16,13 @@
 namespace limitcheck::verify {
 
 Result FileEvidence::result(std::string check, std::string unit, std::optional<double> bound) const {
-  Result r;
-  r.subject = tessellation.name;
-  r.mesh = control_name;
-  r.check = std::move(check);
-  r.scheme = scheme();
-  r.status = Status::kHeld;
-  r.unit = std::move(unit);
-  r.bound = bound;
-  return r;
+  return {.subject = tessellation.name,
+          .mesh = control_name,
+          .check = std::move(check),
+          .scheme = scheme(),
+          .status = Status::kHeld,
+          .bound = bound,
+          .unit = std::move(unit)};
 }
 
 Witness FileEvidence::at_vertex(std::int32_t vertex) const {
@@ -38,8 +36,7 @@ Witness FileEvidence::at_vertex(std::int32_t vertex) const {
   return there;
 }
 
-Witness FileEvidence::at_point(const FacePoint& at) const {
-  const LimitSurface::ControlPoint named = surface.surface().control_point(at);
+Witness FileEvidence::at_point(const LimitSurface::ControlPoint& named) const {
   Witness w;
   w.face = named.face;
   w.corner = named.corner;
@@ -74,19 +71,6 @@ void sort_once(std::vector<std::int32_t>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-// All faces that a point lies in, ascending.
-std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at) {
-  const Chart chart = domain.chart();
-  std::vector<std::int32_t> faces{at.face};
-  for (int k = 0; k < chart.corners(); ++k)
-    if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
-      faces.push_back(domain.across(at.face, k));
-  if (const int k = chart.corner_at(at.l); k >= 0)
-    for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
-  sort_once(faces);
-  return faces;
-}
-
 // How many they are, or 2 where the point is no corner.
 std::size_t count_faces(const Domain& domain, const FacePoint& at) {
   const int k = domain.chart().corner_at(at.l);
@@ -116,10 +100,6 @@ int depth_of(const data::ControlMesh& control, data::Scheme scheme, std::size_t 
 }
 
 }  // namespace
-
-bool any_quick(const FileEvidence& e) {
-  return std::find(e.quick.begin(), e.quick.end(), 1) != e.quick.end();
-}
 
 FacePoint domain_point(const FileEvidence& e, const ProvenanceRow& row) {
   return e.surface.surface().has_control_faces()
@@ -208,20 +188,23 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
   });
 }
 
+std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at) {
+  const Chart chart = domain.chart();
+  std::vector<std::int32_t> faces{at.face};
+  for (int k = 0; k < chart.corners(); ++k)
+    if (chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0)
+      faces.push_back(domain.across(at.face, k));
+  if (const int k = chart.corner_at(at.l); k >= 0)
+    for (const std::int32_t f : domain.faces_at(domain.vertex(at.face, k))) faces.push_back(f);
+  sort_once(faces);
+  return faces;
+}
+
 std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p) {
   const Domain& domain = e.surface.domain();
-  const Chart chart = domain.chart();
   std::vector<Foot> feet;
-  if (const int k = chart.corner_at(at.l); k >= 0) {
-    for (const std::int32_t face : domain.faces_at(domain.vertex(at.face, k)))
-      if (FacePoint there; domain.express(at, face, there)) feet.push_back(e.surface.at(there, p));
-    return feet;
-  }
-  feet.push_back(e.surface.at(at, p));
-  for (int k = 0; k < chart.corners(); ++k)
-    if (FacePoint there; chart.height(k, at.l) == 0 && domain.across(at.face, k) >= 0 &&
-                         domain.express(at, domain.across(at.face, k), there))
-      feet.push_back(e.surface.at(there, p));
+  for (const std::int32_t face : faces_with(domain, at))
+    if (FacePoint there; domain.express(at, face, there)) feet.push_back(e.surface.at(there, p));
   return feet;
 }
 

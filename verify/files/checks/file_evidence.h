@@ -43,7 +43,8 @@ struct FileEvidence {
   }
   Result result(std::string check, std::string unit = {}, std::optional<double> bound = {}) const;
   Witness at_vertex(std::int32_t vertex) const;
-  Witness at_point(const FacePoint& at) const;
+  Witness at_point(const LimitSurface::ControlPoint& named) const;
+  Witness at_point(const FacePoint& at) const { return at_point(surface.surface().control_point(at)); }
 };
 
 /// Whether two corners of a triangle are one point.
@@ -57,10 +58,6 @@ bool lacks(const std::vector<T>& list, const char* what, Result& row) {
   row.status = Status::kNotSupported;
   row.message = std::string("the file has no ") + what;
   return true;
-}
-/// Adds a sentence, unless it is empty, to the message of a row.
-inline void say(Result& row, const std::string& sentence, const char* between) {
-  if (!sentence.empty()) row.message += (row.message.empty() ? "" : between) + sentence;
 }
 inline std::vector<double> list(const Vector& v) {
   return {v.begin(), v.end()};
@@ -87,9 +84,8 @@ std::vector<ProvenanceRow> matched_provenance(const FileEvidence& e);
 void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance, bool told,
                   const std::function<void(std::size_t, std::size_t)>& on_step,
                   Search search = Search::kThorough);
-/// Whether any foot was found quickly.
-bool any_quick(const FileEvidence& evidence);
-
+/// All faces of the domain that a point lies in, ascending.
+std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at);
 /// A point of the domain in all faces that have it, evaluated in each: on an edge that stays sharp the normals
 /// of its sides differ. `p` is the point that projected there.
 std::vector<Foot> in_all_faces(const FileEvidence& e, const FacePoint& at, const Vector& p);

@@ -6,12 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <optional>
-#include <utility>
-
-#include "verify/files/checks/overlay.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -31,14 +26,8 @@ double longest_side(const std::array<Vector, 3>& t) {
 class OneWay {
  public:
   OneWay(const FileEvidence& e, const Overlay& overlay, const std::vector<Bound>& bounds, bool forwards,
-         double tightness, const std::function<void()>& tick)
-      : e_(e),
-        overlay_(overlay),
-        bounds_(bounds),
-        forwards_(forwards),
-        tightness_(tightness),
-        tick_(tick),
-        order_(bounds.size()) {
+         const std::function<void()>& tick)
+      : e_(e), overlay_(overlay), bounds_(bounds), forwards_(forwards), tick_(tick), order_(bounds.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::sort(order_.begin(), order_.end(),
               [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
@@ -56,7 +45,7 @@ class OneWay {
  private:
   double value(const Bound& b) const { return forwards_ ? b.from_triangles : b.from_surface; }
   // What an upper bound need not go below.
-  double enough() const { return bracket_.at_least * (1 + tightness_) + 1e-15 * e_.surface.diagonal(); }
+  double enough() const { return bracket_.at_least * (1 + kTightness) + 1e-15 * e_.surface.diagonal(); }
 
   void raise_lower_end() {
     for (std::size_t k = 0; k < std::min(kExact, order_.size()); ++k) {
@@ -176,37 +165,9 @@ class OneWay {
   const Overlay& overlay_;
   const std::vector<Bound>& bounds_;  // of the lattice's pieces
   const bool forwards_;               // from the triangles to the surface
-  const double tightness_;
   const std::function<void()>& tick_;
   std::vector<std::size_t> order_;  // of the bounds, the largest first
   Bracket bracket_;
-};
-
-// Triangles that lie together. Few are gone through, many are found by their boxes.
-class Polygon {
- public:
-  explicit Polygon(std::vector<std::array<Vector, 3>> triangles) : triangles_(std::move(triangles)) {
-    if (triangles_.size() <= kFew) return;
-    std::vector<BoxTree::Box> boxes;
-    boxes.reserve(triangles_.size());
-    for (const auto& t : triangles_) boxes.push_back(BoxTree::around({t[0], t[1], t[2]}));
-    tree_.emplace(boxes);
-  }
-
-  double distance(const Vector& p) const {
-    double least = std::numeric_limits<double>::infinity();
-    const auto look = [&](std::size_t k) {
-      return least = std::min(least, closest_on_triangle(p, triangles_[k]).distance);
-    };
-    if (tree_) tree_->near(p, look);
-    for (std::size_t k = 0; k < triangles_.size() && !tree_; ++k) look(k);
-    return least;
-  }
-
- private:
-  static constexpr std::size_t kFew = 16;
-  std::vector<std::array<Vector, 3>> triangles_;
-  std::optional<BoxTree> tree_;
 };
 
 // A control face as one flat polygon of the limits of its corners, cut as files are: a fan from the first.
@@ -223,7 +184,7 @@ std::vector<std::array<Vector, 3>> one_polygon(const FileEvidence& e, std::int32
 // The largest distance, at most, from the surface over a control face, holes left out, to one flat polygon of
 // the limits of that face's corners; in the mesh's unit.
 double from_one_polygon_each(const FileEvidence& e) {
-  std::vector<std::optional<Polygon>> polygons(e.control.faces.size());
+  std::vector<std::optional<TriangleTree>> polygons(e.control.faces.size());
   tbb::parallel_for(std::size_t{0}, polygons.size(), [&](std::size_t f) {
     polygons[f].emplace(one_polygon(e, static_cast<std::int32_t>(f)));
   });
@@ -234,7 +195,7 @@ double from_one_polygon_each(const FileEvidence& e) {
   tbb::parallel_for(std::size_t{0}, apart.size(), [&](std::size_t f) {
     const auto face = static_cast<std::int32_t>(f);
     if (surface.is_hole(face)) return;
-    const Polygon& polygon = *polygons[surface.control_face(face)];
+    const TriangleTree& polygon = *polygons[surface.control_face(face)];
     for (std::size_t k = f * per_face; k < (f + 1) * per_face; ++k)
       for (const Vector& corner : lattice.corners(k))
         apart[f] = std::max(apart[f], polygon.distance(corner) + lattice.deviation(k));
@@ -244,7 +205,7 @@ double from_one_polygon_each(const FileEvidence& e) {
 
 }  // namespace
 
-Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick, double tightness) {
+Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick) {
   tick();
   const Overlay overlay(e);
   const SurfaceLattice& lattice = e.surface.lattice();
@@ -256,8 +217,8 @@ Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick, do
   Hausdorff result;
   result.loose = static_cast<std::int64_t>(overlay.loose().size());
   result.one_polygon_each = from_one_polygon_each(e);
-  result.from_triangles = OneWay(e, overlay, bounds, true, tightness, tick).run();
-  result.from_surface = OneWay(e, overlay, bounds, false, tightness, tick).run();
+  result.from_triangles = OneWay(e, overlay, bounds, true, tick).run();
+  result.from_surface = OneWay(e, overlay, bounds, false, tick).run();
   return result;
 }
 

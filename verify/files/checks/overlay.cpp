@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "verify/files/checks/overlay.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "verify/files/checks/hausdorff.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -66,22 +67,38 @@ double area_of(const Part& part) {
 
 constexpr double kNoArea = 1e-14;  // of a face, in its parameters
 
+std::vector<BoxTree::Box> boxes_of(const std::vector<std::array<Vector, 3>>& triangles) {
+  std::vector<BoxTree::Box> boxes;
+  for (const auto& t : triangles) boxes.push_back(BoxTree::around({t[0], t[1], t[2]}));
+  return boxes;
+}
+
 }  // namespace
+
+TriangleTree::TriangleTree(std::vector<std::array<Vector, 3>> triangles)
+    : triangles_(std::move(triangles)), tree_(boxes_of(triangles_)) {}
+
+double TriangleTree::distance(const Vector& p) const {
+  double least = std::numeric_limits<double>::infinity();
+  tree_.near(p, [&](std::size_t k) {
+    return least = std::min(least, closest_on_triangle(p, triangles_[k]).distance);
+  });
+  return least;
+}
 
 Overlay::Overlay(const FileEvidence& e) : e_(e), over_(e.surface.domain().face_count()) {
   const auto& list = e.tessellation.triangles;
   corners_.resize(list.size());
-  std::vector<BoxTree::Box> boxes;
+  std::vector<std::array<Vector, 3>> finite;
   for (std::size_t t = 0; t < list.size(); ++t) {
     const auto p = e.points_of(list[t]);
     if (std::min({p[0], p[1], p[2]}) < 0) continue;
     corners_[t] = {e.position(p[0]), e.position(p[1]), e.position(p[2])};
-    boxes.push_back(BoxTree::around({corners_[t][0], corners_[t][1], corners_[t][2]}));
-    boxed_.push_back(static_cast<std::int32_t>(t));
+    finite.push_back(corners_[t]);
     if (is_collapsed(p)) continue;
     lay(static_cast<std::int32_t>(t), place_triangle(e, p));
   }
-  tree_ = std::make_unique<BoxTree>(boxes);
+  finite_.emplace(std::move(finite));
 }
 
 // Over its face, and over the faces beyond the edges it crosses.
@@ -162,14 +179,6 @@ Bound Overlay::look(const Piece& piece, const std::vector<Over>& over) const {
         std::max(bound.from_surface, distance_to_triangles(middle) + reach + piece.deviation);
   }
   return bound;
-}
-
-double Overlay::distance_to_triangles(const Vector& p) const {
-  double least = std::numeric_limits<double>::infinity();
-  tree_->near(p, [&](std::size_t k) {
-    return least = std::min(least, closest_on_triangle(p, corners_[boxed_[k]]).distance);
-  });
-  return least;
 }
 
 }  // namespace limitcheck::verify

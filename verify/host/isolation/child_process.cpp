@@ -126,10 +126,6 @@ void ChildProcess::start(const std::vector<std::string>& command, Containment co
   }
 }
 
-ChildProcess::~ChildProcess() {
-  kill_and_reap();
-}
-
 void ChildProcess::close_pipe(Pipe pipe) {
   if (pipe_[pipe] >= 0) ::close(pipe_[pipe]);
   pipe_[pipe] = -1;
@@ -196,10 +192,6 @@ void ChildProcess::drain_errors() {
       errors_cut_ = true;
     }
   }
-}
-
-void ChildProcess::check_alive() const {
-  if (!alive()) throw SubjectDied(kind_, epitaph_);
 }
 
 void ChildProcess::fail(SubjectDied::Kind kind, const std::string& what) {

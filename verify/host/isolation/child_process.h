@@ -43,7 +43,7 @@ class ChildProcess : public protocol::Source {
   ///   receipt   counts what it takes, if anybody asks; outlives it
   ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits,
                Receipt* receipt = nullptr);
-  ~ChildProcess() override;
+  ~ChildProcess() override { kill_and_reap(); }
 
   /// Begins an exchange: sends a request; from now on the answer has `limits.seconds`.
   void ask(std::string_view request);
@@ -85,7 +85,9 @@ class ChildProcess : public protocol::Source {
   void close_pipe(Pipe pipe);
   void kill_and_reap();
   [[noreturn]] void ended();
-  void check_alive() const;
+  void check_alive() const {
+    if (!alive()) throw SubjectDied(kind_, epitaph_);
+  }
 
   ProcessLimits limits_;
   Receipt unread_, &receipt_;

@@ -123,28 +123,20 @@ std::vector<pid_t> descendants(pid_t process, const fs::path& proc) {
   }
 }
 
-std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
-                             const fs::path& proc) {
-  std::uint64_t sum = 0;
-  for (const pid_t p : processes) sum += resident_bytes(p, proc);
-  if (sum <= enough || processes.size() == 1) return sum;
-  sum = 0;
-  // Each page divided by the number of those who have it.
-  for (const pid_t p : processes) sum += bytes_behind("Pss:", "smaps_rollup", p, proc);
-  return sum;
-}
-
 Held held_bytes(const std::vector<pid_t>& processes, std::uint64_t enough, const fs::path& proc) {
   Unnamed found;
   Held held;
-  std::uint64_t of_files = 0;
+  std::uint64_t resident = 0, of_files = 0;
   for (const pid_t p : processes) {
-    add_unnamed(p, proc, found), resident_bytes(p, proc, &of_files);
+    add_unnamed(p, proc, found), resident += resident_bytes(p, proc, &of_files);
     held.most = std::max(held.most, bytes_behind("VmHWM:", "status", p, proc));
+  }
+  if (resident > enough && processes.size() > 1) {
+    resident = 0;  // each page divided by the number of those who have it
+    for (const pid_t p : processes) resident += bytes_behind("Pss:", "smaps_rollup", p, proc);
   }
   for (const auto& [file, bytes] : found) held.shared += bytes;
   // Some of it may be resident, too: that counts once.
-  const std::uint64_t resident = resident_bytes(processes, enough, proc);
   held.bytes = std::max(resident, resident - std::min(resident, of_files) + held.shared);
   return held;
 }

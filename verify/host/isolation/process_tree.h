@@ -16,13 +16,9 @@ namespace limitcheck::verify {
 /// the parents of all processes there are. `proc`: for tests.
 std::vector<pid_t> descendants(pid_t process, const std::filesystem::path& proc = "/proc");
 
-/// Bytes of memory that these processes have resident together. Pages that they share count once if the sum
-/// of all exceeds `enough`: only then are they looked for, which takes long.
-std::uint64_t resident_bytes(const std::vector<pid_t>& processes, std::uint64_t enough,
-                             const std::filesystem::path& proc = "/proc");
-
-/// Bytes that these processes hold: what they have resident, and all of the shared memory without a name (memfd,
-/// unlinked files of a tmpfs) that they have open or mapped, whether or not they look at it. Of these, `shared`: such
+/// Bytes that these processes hold: what they have resident together, and all of the shared memory without a name (memfd,
+/// unlinked files of a tmpfs) that they have open or mapped, whether or not they look at it. Pages that they share count
+/// once if the sum of all exceeds `enough`: only then are they looked for, which takes long. Of these, `shared`: such
 /// shared memory; and `most` of the processes' largest resident size so far, of one of them.
 struct Held {
   std::uint64_t bytes = 0, shared = 0, most = 0;

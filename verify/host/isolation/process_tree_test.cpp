@@ -64,10 +64,10 @@ TEST_F(ProcessTree, FollowsTheListsOfAllThreadsWhereThereAreSome) {
 
 TEST_F(ProcessTree, CountsPagesThatAreSharedOnceIfItMatters) {
   const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  EXPECT_EQ(resident_bytes({2, 3}, 2000 * page, proc_), 2000 * page);
-  EXPECT_EQ(resident_bytes({2, 3}, 2000 * page - 1, proc_), 2U * 1000 << 10);
+  EXPECT_EQ(held_bytes({2, 3}, 2000 * page, proc_).bytes, 2000 * page);
+  EXPECT_EQ(held_bytes({2, 3}, 2000 * page - 1, proc_).bytes, 2U * 1000 << 10);
   fs::remove(proc_ / "3" / "smaps_rollup");  // of another user, say
-  EXPECT_EQ(resident_bytes({2, 3}, 1, proc_), (1000U << 10) + 1000 * page);
+  EXPECT_EQ(held_bytes({2, 3}, 1, proc_).bytes, (1000U << 10) + 1000 * page);
 }
 
 TEST(ProcessTreeHere, KnowsThisProcessFromAnother) {

@@ -5,8 +5,6 @@
 
 #include <bit>
 #include <charconv>
-#include <cmath>
-#include <cstring>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <type_traits>

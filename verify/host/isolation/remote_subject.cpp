@@ -11,7 +11,6 @@
 #include <new>
 #include <span>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "data/error.h"

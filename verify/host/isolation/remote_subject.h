@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "verify/host/isolation/child_process.h"
 #include "verify/subject/subject.h"

@@ -2,9 +2,7 @@
 // What the worker sees happen to its memory, repeated in the host's. The header counts the blocks; each is
 // described by three integers (size, bytes written in front of it, bytes written behind it), then come the
 // contents of all. An array is [block, offset], null, or [-1, 0] for memory that was never handed out.
-#include <fmt/core.h>
 
-#include <array>
 #include <new>
 #include <vector>
 

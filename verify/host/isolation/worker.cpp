@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 #include <sys/random.h>
 #include <unistd.h>
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -78,8 +77,6 @@ struct Loaded {
   std::string options;
   LentMesh mesh;
   void* instance = nullptr;
-
-  const char* option_text() const { return options.empty() ? nullptr : options.c_str(); }
 };
 
 data::Scheme asked_scheme(const Header& header) {
@@ -132,20 +129,9 @@ void tessellate(Loaded& loaded, const Header& header, Connection& host) {
   const LentMesh before = loaded.mesh;
 
   Memory memory;
-  const lc_request request{depth.data(), static_cast<std::int32_t>(header.integer("threads", 1, INT32_MAX)),
-                           &memory, &Memory::allocate, sizeof(lc_request)};
-  lc_tessellation out{};
-  out.size = sizeof out;
-  detail::call(loaded.subject, "tessellate", [&](const char** message) {
-    return loaded.subject.tessellate(loaded.instance, &request, &out, message);
-  });
-  const lc_tessellation delivered = out;  // release() may clear its own
-  bool release_threw = false;
-  try {
-    loaded.subject.release(loaded.instance, &out);
-  } catch (...) {
-    release_threw = true;
-  }
+  const auto threads = static_cast<std::int32_t>(header.integer("threads", 1, INT32_MAX));
+  const auto [delivered, release_threw] =
+      detail::tessellate(loaded.subject, loaded.instance, depth, threads, memory);
 
   std::vector<std::array<std::int64_t, 3>> blocks;
   for (const Memory::Block& b : memory.blocks())
@@ -205,7 +191,7 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
     lent.smooth_triangles = header.flag("smooth_triangles");
     const lc_mesh& mesh = lent.lend();
     detail::call(subject, "create", [&](const char** message) {
-      return subject.create(&mesh, loaded->option_text(), &loaded->instance, message);
+      return subject.create(&mesh, detail::text(loaded->options), &loaded->instance, message);
     });
     host.write({{"status", "ok"}});
   } else if (request == "tessellate") {

@@ -21,7 +21,7 @@
 #include "reference/surface/channel.h"
 #include "verify/audit/audit.h"
 #include "verify/host/host.h"
-#include "verify/relations/refusal.h"
+#include "verify/relations/relations.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/subject_error.h"
 

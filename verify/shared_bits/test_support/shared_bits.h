@@ -14,8 +14,8 @@
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/kernel/targets.h"
-#include "verify/evidence/lattice.h"
 #include "verify/relations/variants.h"
+#include "verify/subject/lattice.h"
 
 namespace limitcheck::verify {
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -54,7 +53,7 @@ class Lattice {
   int depth() const { return depth_; }
   std::int64_t n() const { return n_; }
   std::int64_t scale() const { return scale_; }
-  Id size() const { return first_other_ + std::ssize(on_edges_) + std::ssize(inside_); }
+  Id size() const { return first_other_ + std::ssize(others_); }
   std::int32_t face_count() const { return static_cast<std::int32_t>(mesh_.faces.size()); }
   FaceDomain domain(std::int32_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
 
@@ -93,39 +92,33 @@ class Lattice {
   /// The edge on which a shared point that is no vertex lies.
   std::size_t edge_of(Id id) const {
     return is_on_lattice(id) ? static_cast<std::size_t>((id - first_edge_) / (n_ - 1))
-                             : on_edges_[id - first_other_].edge;
+                             : static_cast<std::size_t>(others_[id - first_other_].of);
   }
   /// A control vertex or a point on a control edge.
   bool is_shared(Id id) const {
-    return id < first_inner_.front() || (!is_on_lattice(id) && id < first_other_ + std::ssize(on_edges_));
+    return is_on_lattice(id) ? id < first_inner_.front() : !others_[id - first_other_].inside;
   }
   /// Whether it is a lattice point, or the centre of a face. The others on edges have the ids from first_other() on,
   /// those of an edge one after the other.
   bool is_on_lattice(Id id) const { return id < first_other_; }
   Id first_other() const { return first_other_; }
-  Id others_on_edges() const { return std::ssize(on_edges_); }
   /// The centre of a face of which no refined vertex lies there.
   bool is_bare_centre(Id id) const;
 
  private:
-  // Points off the lattice, in the order of their ids. Along: in scale() from the edge's smaller vertex.
-  struct OnEdge {
-    std::size_t edge;
-    std::int64_t along;
-    auto operator<=>(const OnEdge&) const = default;
-  };
-  struct Inside {
-    std::int32_t face, part;
+  // A point off the lattice, inside a face or on an edge, i steps of scale() from its smaller vertex; in the order of
+  // their ids.
+  struct Other {
+    bool inside;
+    std::int32_t of, part;  // the face or the edge, and the part of the face
     std::int64_t i, j;
-    auto operator<=>(const Inside&) const = default;
+    auto operator<=>(const Other&) const = default;
   };
-
   std::int32_t face_of_inner(Id id) const;
   void list_corners_of_vertices();
   void add_others(std::span<const Place> others);
   // The name of a point among the others; the point at the scale, unless that is too coarse for it.
-  using Named = std::variant<OnEdge, Inside>;
-  Named named(std::int32_t face, Coordinates at) const;
+  Other named(std::int32_t face, Coordinates at) const;
   std::optional<Coordinates> at_scale(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const;
   Id id_of_other(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const;
 
@@ -138,9 +131,8 @@ class Lattice {
   std::vector<Edge> edges_;
   std::vector<std::int32_t> corner_edge_;  // the edge along the side that begins at each corner
   std::vector<std::int32_t> vertex_face_;  // one face at each vertex
-  std::vector<OnEdge> on_edges_;
-  std::vector<Inside> inside_;
-  // If a face has many corners, the numbers of the corners at each vertex, ascending, from first_at_vertex_ on.
+  std::vector<Other> others_;
+  // The numbers of the corners at each vertex, ascending, from first_at_vertex_ on.
   std::vector<std::int32_t> first_at_vertex_, vertex_corners_;
 };
 
@@ -195,10 +187,9 @@ class Sides {
   Id first_other(Lattice::Id point) const;
 
   const Lattice& lattice_;
-  std::vector<Other> others_;
+  std::vector<Other> others_;  // of points on edges, then of vertices, each ascending
+  std::ptrdiff_t first_of_vertices_ = 0;
   std::vector<std::int32_t> sector_;  // of each corner of a face, at its vertex: 0, 1 ..
-  // The first other side of a vertex, of the first lattice point on an edge, of an edge's point off the lattice.
-  std::vector<Id> of_vertex_, of_edge_, off_lattice_;
 };
 
 }  // namespace limitcheck::verify

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <numeric>
 #include <set>
-#include <span>
 #include <utility>
 
 #include "data/error.h"
 
 namespace limitcheck::verify {
 namespace {
-
-constexpr int kManyCorners = 16;  // of a face: then its corners are searched for, not gone through
 
 std::set<std::pair<std::int32_t, std::int32_t>> lasting_edges(const data::ControlMesh& mesh) {
   std::set<std::pair<std::int32_t, std::int32_t>> edges;
@@ -67,8 +64,8 @@ Lattice::Lattice(const data::ControlMesh& mesh, data::Scheme scheme, int depth, 
   for (std::int32_t f = 0; f < face_count(); ++f) {
     const bool bare = n_ % domain(f).centre_denominator() != 0;
     first_inner_.push_back(first_inner_.back() + domain(f).inner_count(n_) + bare);
-    if (domain(f).corners() > kManyCorners && vertex_corners_.empty()) list_corners_of_vertices();
   }
+  list_corners_of_vertices();
   first_other_ = first_inner_.back();
   add_others(others);
 }
@@ -83,16 +80,15 @@ std::pair<FaceDomain::Point, std::int64_t> reduced(FaceDomain::Point p, std::int
 
 }  // namespace
 
-Lattice::Named Lattice::named(std::int32_t face, Coordinates at) const {
+Lattice::Other Lattice::named(std::int32_t face, Coordinates at) const {
   const FaceDomain its = domain(face);
   if (const auto on_side = its.side_of(at, scale_)) {
     const auto [side, along] = *on_side;
     const bool up = vertex(face, side) < vertex(face, its.next(side));
-    return OnEdge{static_cast<std::size_t>(corner_edge_[corner_number(face, side)]),
-                  up ? along : scale_ - along};
+    return {false, corner_edge_[corner_number(face, side)], 0, up ? along : scale_ - along, 0};
   }
   const Coordinates c = its.canonical(at, scale_);
-  return Inside{face, c.part, c.i, c.j};
+  return {true, face, c.part, c.i, c.j};
 }
 
 void Lattice::add_others(std::span<const Place> others) {
@@ -107,19 +103,10 @@ void Lattice::add_others(std::span<const Place> others) {
     scale_ *= finer;
     off.push_back(p);
   }
-  for (const Place& p : off) {
-    const Named name = named(p.face, *at_scale(p.face, point_of(p), domain(p.face).steps(p.denominator)));
-    if (const auto* on_edge = std::get_if<OnEdge>(&name))
-      on_edges_.push_back(*on_edge);
-    else
-      inside_.push_back(std::get<Inside>(name));
-  }
-  const auto once = [](auto& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  };
-  once(on_edges_);
-  once(inside_);
+  for (const Place& p : off)
+    others_.push_back(named(p.face, *at_scale(p.face, point_of(p), domain(p.face).steps(p.denominator))));
+  std::sort(others_.begin(), others_.end());
+  others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
 }
 
 std::optional<Lattice::Coordinates> Lattice::at_scale(std::int32_t face, FaceDomain::Point p,
@@ -132,17 +119,11 @@ std::optional<Lattice::Coordinates> Lattice::at_scale(std::int32_t face, FaceDom
 
 // Of a point off the lattice.
 Lattice::Id Lattice::id_of_other(std::int32_t face, FaceDomain::Point p, std::int64_t steps) const {
-  const auto at = on_edges_.empty() && inside_.empty() ? std::nullopt : at_scale(face, p, steps);
+  const auto at = others_.empty() ? std::nullopt : at_scale(face, p, steps);
   if (!at) return kNone;
-  const auto number = [](const auto& list, const auto& name) {
-    const auto found = std::lower_bound(list.begin(), list.end(), name);
-    return found != list.end() && *found == name ? found - list.begin() : kNone;
-  };
-  const Named name = named(face, *at);
-  const auto* on_edge = std::get_if<OnEdge>(&name);
-  const Id first = on_edge != nullptr ? first_other_ : first_other_ + std::ssize(on_edges_);
-  const Id k = on_edge != nullptr ? number(on_edges_, *on_edge) : number(inside_, std::get<Inside>(name));
-  return k == kNone ? kNone : first + k;
+  const Other name = named(face, *at);
+  const auto found = std::lower_bound(others_.begin(), others_.end(), name);
+  return found != others_.end() && *found == name ? first_other_ + (found - others_.begin()) : kNone;
 }
 
 Lattice::Id Lattice::id(const Place& p) const {
@@ -166,17 +147,12 @@ Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t ste
 }
 
 std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
-  const int corners = domain(face).corners();
-  if (corners > kManyCorners) {
-    const auto begin = vertex_corners_.begin() + first_at_vertex_[id],
-               end = vertex_corners_.begin() + first_at_vertex_[id + 1];
-    const std::int32_t first = corner_number(face, 0);
-    const auto found = std::lower_bound(begin, end, first);
-    return found != end && *found < first + corners ? std::optional(*found - first) : std::nullopt;
-  }
-  for (int k = 0; k < corners; ++k)
-    if (vertex(face, k) == id) return k;
-  return std::nullopt;
+  const auto begin = vertex_corners_.begin() + first_at_vertex_[id],
+             end = vertex_corners_.begin() + first_at_vertex_[id + 1];
+  const std::int32_t first = corner_number(face, 0);
+  const auto found = std::lower_bound(begin, end, first);
+  return found != end && *found < first + domain(face).corners() ? std::optional(*found - first)
+                                                                 : std::nullopt;
 }
 
 void Lattice::list_corners_of_vertices() {
@@ -190,7 +166,7 @@ void Lattice::list_corners_of_vertices() {
 }
 
 std::int32_t Lattice::face_of_inner(Id id) const {
-  if (!is_on_lattice(id)) return inside_[id - first_other_ - std::ssize(on_edges_)].face;
+  if (!is_on_lattice(id)) return others_[id - first_other_].of;
   return static_cast<std::int32_t>(std::upper_bound(first_inner_.begin(), first_inner_.end(), id) -
                                    first_inner_.begin()) -
          1;
@@ -211,8 +187,8 @@ std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) c
   }
   if (is_shared(id)) {
     const Edge& edge = edges_[edge_of(id)];
-    const std::int64_t from_smaller = is_on_lattice(id) ? finer * (id - first_on_edge(edge_of(id)) + 1)
-                                                        : on_edges_[id - first_other_].along;
+    const std::int64_t from_smaller =
+        is_on_lattice(id) ? finer * (id - first_on_edge(edge_of(id)) + 1) : others_[id - first_other_].i;
     for (std::size_t s = 0; s < 2; ++s)
       if (edge.face[s] == face)
         return its.on_side(edge.corner[s],
@@ -221,8 +197,8 @@ std::optional<Lattice::Coordinates> Lattice::in_face(Id id, std::int32_t face) c
     return std::nullopt;
   }
   if (!is_on_lattice(id)) {
-    const Inside& at = inside_[id - first_other_ - std::ssize(on_edges_)];
-    return at.face == face ? std::optional(Coordinates{at.i, at.j, at.part}) : std::nullopt;
+    const Other& at = others_[id - first_other_];
+    return at.of == face ? std::optional(Coordinates{at.i, at.j, at.part}) : std::nullopt;
   }
   if (id < first_inner_[face] || id >= first_inner_[face + 1]) return std::nullopt;
   const Id within = id - first_inner_[face];
@@ -286,23 +262,17 @@ Sides::Sides(const Lattice& lattice) : lattice_(lattice) {
   const auto stays_sharp = [&](const Lattice::Edge& e) { return lasting.contains({e.a, e.b}); };
   sector_ = fans_of_corners(
       lattice, [&](const Lattice::Edge& e) { return !stays_sharp(e); }, [](std::int32_t) { return true; });
-  of_edge_.assign(lattice.edges().size(), -1);
   for (std::size_t k = 0; k < lattice.edges().size(); ++k) {
     const Lattice::Edge& e = lattice.edges()[k];
-    if (e.on_boundary() || !stays_sharp(e) || lattice.n() == 1) continue;
-    of_edge_[k] = size();
+    if (e.on_boundary() || !stays_sharp(e)) continue;
     for (Lattice::Id i = 0; i < lattice.n() - 1; ++i)
       others_.push_back({lattice.first_on_edge(k) + i, e.face[1]});
   }
-  off_lattice_.assign(static_cast<std::size_t>(lattice.others_on_edges()), -1);
-  for (std::size_t k = 0; k < off_lattice_.size(); ++k) {
-    const Lattice::Id point = lattice.first_other() + static_cast<Lattice::Id>(k);
+  for (Id point = lattice.first_other(); point < lattice.size() && lattice.is_shared(point); ++point) {
     const Lattice::Edge& e = lattice.edges()[lattice.edge_of(point)];
-    if (e.on_boundary() || !stays_sharp(e)) continue;
-    off_lattice_[k] = size();
-    others_.push_back({point, e.face[1]});
+    if (!e.on_boundary() && stays_sharp(e)) others_.push_back({point, e.face[1]});
   }
-
+  first_of_vertices_ = std::ssize(others_);
   // The first face of each sector after that which has the id of the vertex.
   std::vector<std::vector<std::int32_t>> first_face(lattice.mesh().positions.size());
   for (std::int32_t f = 0; f < lattice.face_count(); ++f)
@@ -310,20 +280,18 @@ Sides::Sides(const Lattice& lattice) : lattice_(lattice) {
       auto& met = first_face[lattice.vertex(f, k)];
       if (sector_[lattice.corner_number(f, k)] > std::ssize(met)) met.push_back(f);
     }
-  of_vertex_.assign(first_face.size(), -1);
-  for (std::size_t v = 0; v < first_face.size(); ++v) {
-    if (first_face[v].empty()) continue;
-    of_vertex_[v] = size();
+  for (std::size_t v = 0; v < first_face.size(); ++v)
     for (const std::int32_t f : first_face[v]) others_.push_back({static_cast<Lattice::Id>(v), f});
-  }
 }
 
 Sides::Id Sides::first_other(Lattice::Id point) const {
   if (none() || !lattice_.is_shared(point)) return -1;
-  if (lattice_.is_vertex(point)) return of_vertex_[point];
-  if (!lattice_.is_on_lattice(point)) return off_lattice_[point - lattice_.first_other()];
-  const std::size_t edge = lattice_.edge_of(point);
-  return of_edge_[edge] < 0 ? -1 : of_edge_[edge] + point - lattice_.first_on_edge(edge);
+  const auto middle = others_.begin() + first_of_vertices_;
+  const auto begin = lattice_.is_vertex(point) ? middle : others_.begin(),
+             end = lattice_.is_vertex(point) ? others_.end() : middle;
+  const auto found =
+      std::lower_bound(begin, end, point, [](const Other& other, Id id) { return other.point < id; });
+  return found != end && found->point == point ? lattice_.size() + (found - others_.begin()) : -1;
 }
 
 Sides::Id Sides::of(Lattice::Id point, std::int32_t face) const {

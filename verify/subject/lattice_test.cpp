@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/evidence/lattice.h"
+#include "verify/subject/lattice.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(Lattice, ProvenanceRoundTrips) {
   for (Lattice::Id id = 0; id < lattice.size(); ++id) EXPECT_EQ(lattice.id(lattice.place(id)), id);
 }
 
-// Of faces with many corners these are searched for; the answers are those of going through them.
+// Corners are searched for; the answers are those of going through them.
 TEST(Lattice, KnowsTheCornersAndSidesOfPolygonsOfAnySize) {
   for (const int n : {5, 16, 17, 100}) {
     const data::ControlMesh mesh = data::polygon_prism(n);

@@ -44,6 +44,25 @@ inline void append(ControlMesh& mesh, const ControlMesh& other, const std::array
   }
 }
 
+/// For each position the first that lies exactly where it does (-0 is 0). Compared as bits, so that NaN has its place
+/// in the order, too.
+inline std::vector<std::int32_t> first_at_place(const std::vector<std::array<double, 3>>& positions) {
+  using Key = std::array<std::uint64_t, 3>;
+  std::vector<std::pair<Key, std::int32_t>> order;
+  order.reserve(positions.size());
+  for (const auto& [x, y, z] : positions)
+    order.emplace_back(Key{std::bit_cast<std::uint64_t>(x + 0.0), std::bit_cast<std::uint64_t>(y + 0.0),
+                           std::bit_cast<std::uint64_t>(z + 0.0)},
+                       static_cast<std::int32_t>(order.size()));
+  std::sort(order.begin(), order.end());
+  std::vector<std::int32_t> first(positions.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto& [key, v] = order[k];
+    first[v] = k > 0 && key == order[k - 1].first ? first[order[k - 1].second] : v;
+  }
+  return first;
+}
+
 /// An edge, the smaller vertex first.
 using VertexPair = std::pair<std::int32_t, std::int32_t>;
 

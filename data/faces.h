@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -83,35 +82,22 @@ class Triangles {
   std::vector<Triangle> to_vector() const { return {begin(), end()}; }
 
   /// Goes through the triangles.
-  class Iterator {
-   public:
-    using iterator_category = std::random_access_iterator_tag;
+  struct Iterator {
+    using iterator_category = std::forward_iterator_tag;
     using value_type = Triangle;
     using difference_type = std::ptrdiff_t;
     using pointer = void;
     using reference = Triangle;
 
-    Iterator() = default;
-    Iterator(const std::int32_t* corner) : corner_(corner) {}
-    const Triangle operator*() const { return {corner_[0], corner_[1], corner_[2]}; }
-    Triangle operator[](difference_type n) const { return *(*this + n); }
-    Iterator& operator++() { return *this += 1; }
-    Iterator& operator--() { return *this += -1; }
-    Iterator operator++(int) { return std::exchange(*this, *this + 1); }
-    Iterator operator--(int) { return std::exchange(*this, *this + -1); }
-    Iterator& operator+=(difference_type n) { return corner_ += 3 * n, *this; }
-    Iterator& operator-=(difference_type n) { return corner_ -= 3 * n, *this; }
-    friend Iterator operator+(Iterator a, difference_type n) { return a += n; }
-    friend Iterator operator+(difference_type n, Iterator a) { return a += n; }
-    friend Iterator operator-(Iterator a, difference_type n) { return a -= n; }
-    friend difference_type operator-(Iterator a, Iterator b) { return (a.corner_ - b.corner_) / 3; }
-    friend auto operator<=>(Iterator, Iterator) = default;
+    const std::int32_t* corner = nullptr;
 
-   private:
-    const std::int32_t* corner_ = nullptr;
+    const Triangle operator*() const { return {corner[0], corner[1], corner[2]}; }
+    Iterator& operator++() { return corner += 3, *this; }
+    Iterator operator++(int) { return {std::exchange(corner, corner + 3)}; }
+    friend bool operator==(Iterator, Iterator) = default;
   };
-  Iterator begin() const { return corners_.data(); }
-  Iterator end() const { return corners_.data() + corners_.size(); }
+  Iterator begin() const { return {corners_.data()}; }
+  Iterator end() const { return {corners_.data() + corners_.size()}; }
 
   friend bool operator==(const Triangles& a, const Triangles& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());

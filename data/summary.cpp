@@ -59,18 +59,6 @@ bool has_no_area(const Point& a, const Point& b, const Point& c) {
   return u[1] * v[2] == u[2] * v[1] && u[2] * v[0] == u[0] * v[2] && u[0] * v[1] == u[1] * v[0];
 }
 
-// For each vertex the first that lies exactly where it does (-0 is 0).
-std::vector<std::int32_t> first_at_place(const ControlMesh& mesh) {
-  const auto& p = mesh.positions;
-  std::vector<std::int32_t> order(p.size()), first(p.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t a, std::int32_t b) { return p[a] != p[b] ? p[a] < p[b] : a < b; });
-  for (std::size_t k = 0; k < order.size(); ++k)
-    first[order[k]] = k > 0 && p[order[k]] == p[order[k - 1]] ? first[order[k - 1]] : order[k];
-  return first;
-}
-
 }  // namespace
 
 MeshSummary summarise(const ControlMesh& mesh) {
@@ -103,7 +91,7 @@ MeshSummary summarise(const ControlMesh& mesh) {
   for (const Point& p : mesh.positions)
     for (const double x : p) s.largest = std::max(s.largest, std::abs(x));
   if (s.largest > 0) s.float_step = std::ldexp(1.0, std::ilogb(s.largest) - 23);
-  const std::vector<std::int32_t> place = first_at_place(mesh);
+  const std::vector<std::int32_t> place = first_at_place(mesh.positions);
   const std::vector<VertexPair> list = sides_of(mesh.faces);
   std::vector<bool> on_boundary(n, false);
   std::map<VertexPair, std::int64_t> boundary_at;  // by the places of both ends

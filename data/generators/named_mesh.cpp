@@ -240,6 +240,11 @@ ControlMesh stretched(ControlMesh mesh, std::uint64_t k, const std::string&) {
   return mesh;
 }
 
+template <ControlMesh (*apply)(ControlMesh mesh, std::uint64_t number)>
+ControlMesh by_number(ControlMesh mesh, std::uint64_t number, const std::string&) {
+  return apply(std::move(mesh), number);
+}
+
 const std::vector<Operation>& operations() {
   static const std::vector<Operation> all{
       {"dual:", "dual:NAME...", "the dual of a closed mesh: dual:bumpy:800 has a face around each vertex", 0,
@@ -253,23 +258,15 @@ const std::vector<Operation>& operations() {
        }},
       {"turned:", "turned:SEED:NAME...",
        "a mesh with some inner edges between other corners of the faces beside them", kMostOfAll,
-       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
-         return with_turned_edges(std::move(mesh), seed);
-       }},
+       by_number<with_turned_edges>},
       {"tagged:", "tagged:SEED:NAME...",
        "a mesh with any sharp edges, vertices and options in place of its own", kMostOfAll,
-       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
-         return with_any_tags(std::move(mesh), seed);
-       }},
+       by_number<with_any_tags>},
       {"uv:", "uv:SEED:NAME...",
        "a mesh with texture coordinates in charts drawn by chance, and a rule for them", kMostOfAll,
-       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
-         return with_random_channel(std::move(mesh), seed);
-       }},
+       by_number<with_random_channel>},
       {"uvs:", "uvs:SEED:NAME...", "the same, and a channel \"colour\" of four components", kMostOfAll,
-       [](ControlMesh mesh, std::uint64_t seed, const std::string&) {
-         return with_random_channels(std::move(mesh), seed);
-       }}};
+       by_number<with_random_channels>}};
   return all;
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -26,13 +25,6 @@ namespace {
 constexpr int kDeepest = 256;              // nodes above a mesh
 constexpr std::size_t kDeepestJson = 128;  // brackets: no glTF needs more than ten, and the parser recurses
 constexpr std::size_t kMost = 1 << 28;     // vertices, and corners: a small file may repeat a mesh very often
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 // A GLB file is a header of 12 bytes, then the length and the kind of the first chunk, then that: the JSON.
 std::string_view json_of(std::string_view content, bool binary) {
@@ -386,20 +378,14 @@ PolygonSoup read_gltf(const std::filesystem::path& file) {
 PolygonSoup read_control_soup(const std::filesystem::path& file) {
   if (!is_gltf(file)) return read_soup(file);
   PolygonSoup soup = read_gltf(file);
-  std::map<std::array<double, 3>, std::int64_t> vertices;
-  std::vector<std::int64_t> to;
-  for (std::array<double, 3> p : soup.positions) {
+  for (std::array<double, 3>& p : soup.positions)
     for (double& x : p) x += 0.0;  // -0 is 0
-    to.push_back(vertices.try_emplace(p, static_cast<std::int64_t>(vertices.size())).first->second);
-  }
-  for (std::int64_t& v : soup.corners) v = v < 0 ? v : to[v];
   const std::size_t before = soup.positions.size();
-  soup.positions.resize(vertices.size());
-  for (const auto& [position, v] : vertices) soup.positions[v] = position;
+  join_equal_positions(soup);
   soup.normals.clear();
-  if (before > vertices.size())
+  if (before > soup.positions.size())
     soup.notes.push_back(fmt::format("{} vertices at {} different positions: those at equal ones are one",
-                                     before, vertices.size()));
+                                     before, soup.positions.size()));
   return soup;
 }
 

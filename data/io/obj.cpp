@@ -35,11 +35,6 @@ constexpr std::string_view kFreeForm[] = {"vp",   "cstype", "deg",   "bmat", "st
                                           "con",  "ctech",  "stech", "call", "fo"};
 constexpr std::string_view kEdits[] = {"vertexedit", "edgeedit", "faceedit"};
 
-template <class List>
-bool contains(const List& list, std::string_view word) {
-  return std::find(std::begin(list), std::end(list), word) != std::end(list);
-}
-
 class ObjReader {
  public:
   ObjReader(std::string_view content, const std::string& name) : scanner_(content, name, '#', true) {}

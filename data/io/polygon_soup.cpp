@@ -129,6 +129,22 @@ void add_channels(const PolygonSoup& soup, const std::vector<std::int64_t>& poly
 
 }  // namespace
 
+void join_equal_positions(PolygonSoup& soup) {
+  const std::vector<std::int32_t> first = first_at_place(soup.positions);
+  std::vector<std::int64_t> index(first.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] != static_cast<std::int32_t>(i)) continue;
+    index[i] = static_cast<std::int64_t>(kept);
+    soup.positions[kept] = soup.positions[i];
+    if (!soup.position_lines.empty()) soup.position_lines[kept] = soup.position_lines[i];
+    ++kept;
+  }
+  soup.positions.resize(kept);
+  if (!soup.position_lines.empty()) soup.position_lines.resize(kept);
+  for (std::int64_t& v : soup.corners) v = v < 0 ? v : index[static_cast<std::size_t>(first[v])];
+}
+
 bool is_unused(const SoupFault& fault) {
   return fault.code == code(MeshFault::kIsolatedVertex);
 }

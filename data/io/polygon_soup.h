@@ -74,6 +74,9 @@ PolygonSoup read_usda(std::string_view content, const std::string& name);
 /// with a FILE_ code.
 PolygonSoup read_soup(const std::filesystem::path& file);
 
+/// Makes one vertex of those at equal positions (-0 is 0), in the order in which they come. Normals stay as they are.
+void join_equal_positions(PolygonSoup& soup);
+
 /// One thing that is wrong with the mesh of a file.
 struct SoupFault {
   std::string code;     // as in data/validate.h

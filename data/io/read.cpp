@@ -20,33 +20,34 @@ namespace {
 // The content is held in memory, and what is made of it takes up to twelve times as much.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{4} << 30;
 
+struct Format {
+  std::string_view extension;
+  io::PolygonSoup (*read)(std::string_view content, const std::string& name);
+};
+// In the order of FileFormat.
+constexpr Format kFormats[] = {{".obj", io::read_obj},
+                               {".off", io::read_off},
+                               {".ply", io::read_ply},
+                               {".stl", io::read_stl},
+                               {".usda", io::read_usda}};
+
 io::PolygonSoup parse(std::string_view content, FileFormat format, const std::string& name) {
-  switch (format) {
-    case FileFormat::kObj:
-      return io::read_obj(content, name);
-    case FileFormat::kOff:
-      return io::read_off(content, name);
-    case FileFormat::kPly:
-      return io::read_ply(content, name);
-    case FileFormat::kStl:
-      return io::read_stl(content, name);
-    case FileFormat::kUsda:
-      return io::read_usda(content, name);
-  }
-  return {};
+  return kFormats[static_cast<std::size_t>(format)].read(content, name);
 }
 
 }  // namespace
 
-FileFormat io::format_of(const std::filesystem::path& file) {
+std::string io::lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".obj") return FileFormat::kObj;
-  if (extension == ".off") return FileFormat::kOff;
-  if (extension == ".ply") return FileFormat::kPly;
-  if (extension == ".stl") return FileFormat::kStl;
-  if (extension == ".usda") return FileFormat::kUsda;
+  return extension;
+}
+
+FileFormat io::format_of(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  for (std::size_t k = 0; k < std::size(kFormats); ++k)
+    if (extension == kFormats[k].extension) return static_cast<FileFormat>(k);
   throw InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,
                    "the name does not end in .obj, .off, .ply, .stl, .usda, .gltf or .glb");
 }

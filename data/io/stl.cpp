@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <numeric>
 
 #include "data/error.h"
 #include "data/io/polygon_soup.h"
@@ -105,37 +104,6 @@ void read_binary(std::string_view content, const std::string& name, PolygonSoup&
   }
 }
 
-// Makes one vertex of equal positions. Compared as bits, so that NaN has its place in the order too.
-void merge_equal_positions(PolygonSoup& soup) {
-  const std::size_t n = soup.positions.size();
-  std::vector<std::array<std::uint64_t, 3>> keys(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      keys[i][axis] = std::bit_cast<std::uint64_t>(soup.positions[i][axis] + 0.0);  // -0 becomes 0
-    }
-  }
-  std::vector<std::size_t> order(n), first(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
-  for (std::size_t i = 0; i < n; ++i) {
-    first[order[i]] = i > 0 && keys[order[i]] == keys[order[i - 1]] ? first[order[i - 1]] : order[i];
-  }
-
-  PolygonSoup merged;
-  std::vector<std::int64_t> index(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (first[i] == i) {
-      index[i] = static_cast<std::int64_t>(merged.positions.size());
-      merged.positions.push_back(soup.positions[i]);
-      if (!soup.position_lines.empty()) merged.position_lines.push_back(soup.position_lines[i]);
-    }
-  }
-  for (std::int64_t& corner : soup.corners) corner = index[first[corner]];
-  soup.positions = std::move(merged.positions);
-  soup.position_lines = std::move(merged.position_lines);
-}
-
 // Binary files may begin with "solid" too; those have zero bytes in their count or their numbers, or the
 // right size.
 bool is_ascii(std::string_view content) {
@@ -157,7 +125,7 @@ PolygonSoup read_stl(std::string_view content, const std::string& name) {
   } else {
     read_binary(content, name, soup);
   }
-  merge_equal_positions(soup);
+  join_equal_positions(soup);
   return soup;
 }
 

@@ -2,7 +2,9 @@
 // Lines and words of a text, each error with its line. Independent of the locale.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,6 +68,12 @@ class TextScanner {
 /// is not one.
 std::optional<double> to_double(std::string_view word);
 std::optional<std::int64_t> to_integer(std::string_view word);
+
+/// Whether a list has a word.
+template <class List>
+bool contains(const List& list, std::string_view word) {
+  return std::find(std::begin(list), std::end(list), word) != std::end(list);
+}
 
 /// A word for a message: shortened, unprintable characters replaced.
 std::string quoted(std::string_view word);

@@ -65,11 +65,6 @@ constexpr std::string_view kRead[] = {"points",
 constexpr std::string_view kMovesNoPoint[] = {"normals", "extent",     "doubleSided",  "visibility",
                                               "purpose", "velocities", "accelerations"};
 
-template <class List>
-bool among(const List& list, std::string_view word) {
-  return std::find(std::begin(list), std::end(list), word) != std::end(list);
-}
-
 class UsdReader {
  public:
   UsdReader(std::string_view content, const std::string& name) : words_(content, name) {}
@@ -141,10 +136,10 @@ class UsdReader {
       note(line, fmt::format("{} is not applied: points are as their mesh has them", io::quoted(name)));
     const bool is_primvar =
         of_mesh && name.starts_with("primvars:") && components_of(type) > 0 && name.find('.') == name.npos;
-    const bool is_read = of_mesh && (among(kRead, name) || is_primvar);
+    const bool is_read = of_mesh && (contains(kRead, name) || is_primvar);
     if (of_mesh && name.starts_with("points."))
       words_.fail("FILE_UNSUPPORTED", "the points move with time", line);
-    if (of_mesh && !is_read && !is_relation && !is_variant && !among(kMovesNoPoint, name) &&
+    if (of_mesh && !is_read && !is_relation && !is_variant && !contains(kMovesNoPoint, name) &&
         !name.starts_with("primvars:") && !name.starts_with("xformOp") && !name.starts_with("normals"))
       note(line, fmt::format("{} is read over", io::quoted(name)));
     UsdValue* value = nullptr;

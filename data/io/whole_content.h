@@ -9,6 +9,9 @@
 
 namespace limitcheck::data::io {
 
+/// The extension of a file in lower case: ".obj".
+std::string lower_extension(const std::filesystem::path& file);
+
 /// The format of a file by its extension, in any case. Throws InputError FILE_UNKNOWN_FORMAT.
 FileFormat format_of(const std::filesystem::path& file);
 

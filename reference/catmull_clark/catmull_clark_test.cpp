@@ -98,10 +98,10 @@ TEST(CatmullClark_RegularVertex, IsTheBicubicSpline) {
   const auto s = evaluate_patch<Rational>(p, Rational(0), Rational(0), Derivatives::kSecond);
   EXPECT_EQ(s.position, limit_position(c));
   // d/du is (4 (e_0 - e_2) + f_0 - f_1 - f_2 + f_3) / 12.
-  EXPECT_EQ(s.u,
+  EXPECT_EQ(s.a,
             ((c.edges[0] - c.edges[2]) * Rational(4) + c.faces[0] - c.faces[1] - c.faces[2] + c.faces[3]) *
                 Rational(1, 12));
-  EXPECT_EQ(s.uv, (c.faces[0] - c.faces[1] + c.faces[2] - c.faces[3]) * Rational(1, 4));
+  EXPECT_EQ(s.ab, (c.faces[0] - c.faces[1] + c.faces[2] - c.faces[3]) * Rational(1, 4));
 }
 
 struct Case {

@@ -17,6 +17,7 @@
 #include "reference/catmull_clark/vertex_limit.h"
 #include "reference/number/number.h"
 #include "reference/number/vec3.h"
+#include "reference/point/local_point.h"
 #include "reference/point/normal.h"
 #include "reference/point/surface_point.h"
 
@@ -42,17 +43,10 @@ struct CubicBasis {
 template <class N>
 using Patch = std::array<Vec3<N>, 16>;
 
-/// A point of a patch: position and derivatives with respect to its own (u, v).
-template <class N>
-struct PatchPoint {
-  Vec3<N> position, u, v, uu, uv, vv;
-  N u_terms{}, v_terms{};  ///< of u and v, see Tangents
-};
-
 /// Everything up to `order`, from differences to point 5: exact zeros where points coincide.
 ///   size   the largest coordinate that the points were computed from, if not their own
 template <class N>
-PatchPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Derivatives order,
+LocalPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Derivatives order,
                              N size = N(0)) {
   const CubicBasis<N> a(u), b(v);
   const Vec3<N> origin = points[5];
@@ -65,67 +59,40 @@ PatchPoint<N> evaluate_patch(const Patch<N>& points, const N& u, const N& v, Der
       if (order >= Derivatives::kFirst) first[j] += d * a.first[i];
       if (order >= Derivatives::kSecond) second[j] += d * a.second[i];
     }
-  PatchPoint<N> p{};
+  LocalPoint<N> p{};
   for (std::size_t j = 0; j < 4; ++j) p.position += value[j] * b.value[j];
   p.position += origin;
   if (order == Derivatives::kPosition) return p;
   for (std::size_t j = 0; j < 4; ++j) {
-    p.u += first[j] * b.value[j];
-    p.v += value[j] * b.first[j];
+    p.a += first[j] * b.value[j];
+    p.b += value[j] * b.first[j];
   }
   if constexpr (kRounds<N>) {
     for (const Vec3<N>& q : points) size = std::max(size, magnitude(q));
     for (std::size_t j = 0; j < 4; ++j) {
-      p.u_terms += magnitude(a.first[j]);
-      p.v_terms += magnitude(b.first[j]);
+      p.a_terms += magnitude(a.first[j]);
+      p.b_terms += magnitude(b.first[j]);
     }
-    p.u_terms *= N(2) * size;  // both ends of each difference; the other direction's weights sum to 1
-    p.v_terms *= N(2) * size;
+    p.a_terms *= N(2) * size;  // both ends of each difference; the other direction's weights sum to 1
+    p.b_terms *= N(2) * size;
   }
   if (order == Derivatives::kFirst) return p;
   for (std::size_t j = 0; j < 4; ++j) {
-    p.uu += second[j] * b.value[j];
-    p.uv += first[j] * b.first[j];
-    p.vv += value[j] * b.second[j];
+    p.aa += second[j] * b.value[j];
+    p.ab += first[j] * b.first[j];
+    p.bb += value[j] * b.second[j];
   }
   return p;
 }
 
 // A point of the surface from a regular patch, or at an extraordinary corner.
 
-/// How the parameters of a sub-quad that starts at corner k of its quad are turned against the quad's:
-/// its u is uu u + uv v and its v is vu u + vv v, up to constants.
-struct Turn {
-  int uu, uv, vu, vv;
-};
-/// Of corner 0 to 3: (u, v), (v, 1 - u), (1 - u, 1 - v), (1 - v, u).
-constexpr Turn turn_of(std::size_t corner) {
-  constexpr std::array<Turn, 4> turns{{{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}}};
+/// How the parameters of a sub-quad that starts at corner k of its quad are turned against the quad's. Of corner 0
+/// to 3 they are (u, v), (v, 1 - u), (1 - u, 1 - v), (1 - v, u).
+constexpr ParameterGradients turn_of(std::size_t corner) {
+  constexpr std::array<ParameterGradients, 4> turns{
+      {{1, 0, 0, 1}, {0, 1, -1, 0}, {-1, 0, 0, -1}, {0, -1, 1, 0}}};
   return turns[corner];
-}
-
-/// Sets the derivatives of `result` from those of a patch whose (u, v) is turned; `first`, `second` are
-/// positive factors.
-template <class N>
-void set_derivatives(SurfacePoint<N>& result, const PatchPoint<N>& p, const Turn& turn, const N& first,
-                     const N& second, Derivatives order) {
-  if (order == Derivatives::kPosition) return;
-  const N a(turn.uu), b(turn.uv), c(turn.vu), d(turn.vv);
-  result.d1 = (p.u * a + p.v * c) * first;
-  result.d2 = (p.u * b + p.v * d) * first;
-  result.t1 = result.d1;
-  result.t2 = result.d2;
-  if constexpr (kRounds<N>) {
-    const bool swapped = turn.uu == 0;
-    result.t1_terms = (swapped ? p.v_terms : p.u_terms) * first;
-    result.t2_terms = (swapped ? p.u_terms : p.v_terms) * first;
-  }
-  result.first_exist = true;
-  if (order == Derivatives::kFirst) return;
-  result.d11 = (p.uu * (a * a) + p.vv * (c * c)) * second;
-  result.d12 = p.uv * (a * d + b * c) * second;
-  result.d22 = (p.uu * (b * b) + p.vv * (d * d)) * second;
-  result.second_exist = true;
 }
 
 /// Twice the area of a quad times its normal: what takes the normal's place where the tangents vanish. [D12]
@@ -175,20 +142,20 @@ SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPl
       const auto at = 2 * static_cast<std::size_t>(i) % circle.cosine.size();
       return tangents.first * (circle.cosine[at] * first) + tangents.second * (circle.sine[at] * second);
     };
-    PatchPoint<N> tangent{}, linear{};
+    LocalPoint<N> tangent{}, linear{};
     if (corner.on_boundary) {
       N first(1), second(1);
       if (corner.state == VertexState::kDart) {
         first = second = N(1) / N(2 * count);
         if (result.limits.first.fate == Fate::kValue) {
           const N along = N(11) / N(104), across = N(1) / N(12);
-          linear.u = around(corner.sector, along, across);
-          linear.v = around(corner.sector + 1, along, across);
+          linear.a = around(corner.sector, along, across);
+          linear.b = around(corner.sector + 1, along, across);
         }
       } else if (corner.state == VertexState::kOrdinary) {
         first = N(1) / N(2), second = N(1) / N(2 * count + 1);
-        linear.u = tangents.first * first;
-        linear.v = Vec3<N>{} - linear.u;
+        linear.a = tangents.first * first;
+        linear.b = Vec3<N>{} - linear.a;
       }
       result.t1 = tangents.first * first;
       result.t2 = tangents.second * second;
@@ -196,9 +163,9 @@ SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPl
       result.t2_terms = tangents.second_terms * second;
     } else {
       const N share = N(1) / N(2 * count);
-      tangent.u = around(corner.sector, N(1), N(1)) * share;
-      tangent.v = around(corner.sector + 1, N(1), N(1)) * share;
-      tangent.u_terms = tangent.v_terms = (tangents.first_terms + tangents.second_terms) * share;
+      tangent.a = around(corner.sector, N(1), N(1)) * share;
+      tangent.b = around(corner.sector + 1, N(1), N(1)) * share;
+      tangent.a_terms = tangent.b_terms = (tangents.first_terms + tangents.second_terms) * share;
       set_derivatives(result, tangent, turn_of(k), N(1), N(1), Derivatives::kFirst);
     }
     SurfacePoint<N> derivatives;

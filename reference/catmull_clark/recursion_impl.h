@@ -268,7 +268,7 @@ SurfacePoint<N> SubdivisionEvaluator<N>::evaluate(int face, int corner, const Pa
     at.v = 2 * at.v - (up ? 1 : 0);
     ++level;
   }
-  const PatchPoint<N> p =
+  const LocalPoint<N> p =
       evaluate_patch<N>(quad.patch(ghost_point<N>), number_from<N>(at.u), number_from<N>(at.v), order);
   SurfacePoint<N> result;
   result.position = p.position;

@@ -136,7 +136,7 @@ class StamData {
       Patch<N> patch;
       for (std::size_t i = 0; i < 16; ++i)
         patch[i] = points_[static_cast<std::size_t>(patches_[4 * at.quad + k][i])];
-      const PatchPoint<N> p = evaluate_patch<N>(patch, number_from<N>(P(2 * at.u - (right ? 1 : 0))),
+      const LocalPoint<N> p = evaluate_patch<N>(patch, number_from<N>(P(2 * at.u - (right ? 1 : 0))),
                                                 number_from<N>(P(2 * at.v - (up ? 1 : 0))), order);
       result.position = p.position;
       set_derivatives(result, p, turn_of(0), N(2) * halved, N(4) * halved * halved, order);
@@ -204,7 +204,7 @@ class StamData {
   }
 
   template <class P>
-  void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const Turn& turn,
+  void near_corner(const TwoRing<N>& ring, int sector, const P& x, const P& y, const ParameterGradients& turn,
                    const N& halved, Derivatives order, SurfacePoint<N>& result) const {
     const long steps = steps_to_corner(std::max(x, y));
     const P a = times_power_of_two(x, steps + 1),
@@ -212,7 +212,7 @@ class StamData {
     TwoRingSector<N> s;
     ring.sector(sector, steps, s);
     const int i = a >= 1 ? 1 : 0, j = b >= 1 ? 1 : 0;
-    const PatchPoint<N> p = evaluate_patch<N>(FinerSector<N>(s).patch(i, j), number_from<N>(P(a - i)),
+    const LocalPoint<N> p = evaluate_patch<N>(FinerSector<N>(s).patch(i, j), number_from<N>(P(a - i)),
                                               number_from<N>(P(b - j)), order, ring.size(steps));
     const N growth = ring.growth();
     result.position = ring.limit() + (p.position - s.c_to_limit) * power(growth, steps);

@@ -2,10 +2,10 @@
 // The exact evaluator: Stam's method for Loop surfaces, at any corner valences and boundaries.
 //
 //   J. Stam, Evaluation of Loop Subdivision Surfaces, 1998. One subdivision step leaves at most one
-//   extraordinary vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one,
-//   the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues
-//   (two_ring_modes.h), so that the cost does not depend on how near the point is; one more step then gives
-//   the twelve control points of a regular piece.
+//   extraordinary vertex per sub-face. Sub-faces without one are box spline patches (Appendix A). Near one
+//   inside, the J-th power of the subdivision matrix of its two-ring comes from the matrix's eigenvalues
+//   (two_ring.h), so that the cost does not depend on how near the point is; near others the steps are taken
+//   (stepped_ring.h). One more step then gives the twelve control points of a regular piece.
 #pragma once
 
 #include <memory>
@@ -39,8 +39,8 @@ struct StamError {
 /// rule next to it. Built for double, Decimal50, Decimal100 (number_exact.h) and Ball (ball.h).
 ///
 ///   construction  O(n)
-///   a point       near a vertex of few faces O(their number); of 65 and more, or held, O(J^2), where 2^-J is
-///                 the distance from the vertex; near a dart of n faces O(J n)
+///   a point       near a vertex of few faces inside O(their number); of 65 and more, on the boundary, or held,
+///                 O(J^2), where 2^-J is the distance from the vertex; near a dart of n faces O(J n)
 ///   threads       any number may evaluate at once
 ///   error         in double StamError; second derivatives beyond 1e308 come out infinite
 ///   parameters    l1, l2 >= 0, l1 + l2 <= 1.

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <variant>
 
 #include "data/error.h"
 #include "reference/loop/ringed_face.h"
@@ -52,26 +53,18 @@ class StamData {
     SurfacePoint<N> result;
     const std::size_t corner = location.subface;
     const std::int32_t v = location.subface == 3 ? -1 : topology_.faces()[f][corner];
-    const TwoRing<N>* two_ring = v < 0 || two_ring_of_[v] < 0 ? nullptr : &two_rings_[two_ring_of_[v]];
-    const SteppedRing<N>* stepped =
-        v < 0 || stepped_ring_of_[v] < 0 ? nullptr : &stepped_rings_[stepped_ring_of_[v]];
-    if (two_ring == nullptr && stepped == nullptr)
+    const std::int32_t ring = v < 0 ? -1 : ring_of_[v];
+    if (ring < 0)
       evaluate_regular(f, location, order, result);
     else if (location.u + location.v == 0)
       return evaluate_corner(f, location.subface, location.gradients, order);
-    else if (stepped != nullptr)
-      evaluate_near_corner(f, location, *stepped, order, result);
     else
-      evaluate_near_corner(f, location, *two_ring, order, result);
+      std::visit([&](const auto& its) { evaluate_near_corner(f, location, its, order, result); },
+                 rings_[ring]);
     if (order == Derivatives::kPosition) return result;
     Tangents<N> tangents = tangents_of(result);
-    const bool near_vertex = two_ring != nullptr || stepped != nullptr;
-    if (near_vertex && is_ordinary_end(v) && nearly_parallel(result.t1, result.t2)) {
-      if (two_ring != nullptr)
-        separate_tangents(f, location, *two_ring, tangents);
-      else
-        separate_tangents(f, location, *stepped, tangents);
-    }
+    if (ring >= 0 && is_ordinary_end(v) && nearly_parallel(result.t1, result.t2))
+      separate_tangents(f, location, std::get<SteppedRing<N>>(rings_[ring]), tangents);
     set_normal(result, tangents, fallback_normal(f));
     return result;
   }
@@ -82,8 +75,7 @@ class StamData {
   }
 
   void make_two_rings() {
-    two_ring_of_.assign(topology_.vertex_count(), -1);
-    stepped_ring_of_.assign(topology_.vertex_count(), -1);
+    ring_of_.assign(topology_.vertex_count(), -1);
     std::vector<Vec3<N>> r, q, p;
     for (std::size_t id = 0; id < topology_.vertex_count(); ++id) {
       const auto v = static_cast<std::int32_t>(id);
@@ -100,20 +92,18 @@ class StamData {
         const int k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
         q.push_back(points_[edge_point(topology_.edge(f, (k + 1) % 3))]);
       }
-      if (state != VertexState::kOrdinary || valence >= kManyFaces) {
-        const std::tuple kind(valence, sector.closed, state);
-        const auto [faces, closed, what] = kind;
-        const auto& found = stepped_kinds_.try_emplace(kind, faces, closed, what, weights_).first->second;
-        stepped_ring_of_[id] = static_cast<std::int32_t>(stepped_rings_.size());
-        stepped_rings_.emplace_back(found, points_[v], r, q, p);
-        if (kRounds<N> && valence >= kManyFaces)  // who asks for balls asks for few points
-          limit_of_.emplace(v, limit_at(v));
+      ring_of_[id] = static_cast<std::int32_t>(rings_.size());
+      const bool closed = sector.closed;
+      if (closed && state == VertexState::kOrdinary && valence < kManyFaces) {
+        const auto& modes = modes_.try_emplace(valence, valence, weights_).first->second;
+        rings_.push_back(TwoRing<N>(modes, points_[v], r, q, p));
         continue;
       }
-      const std::pair key(static_cast<int>(q.size()), !sector.closed);
-      const auto modes = modes_.try_emplace(key, key.first, key.second, weights_).first;
-      two_ring_of_[id] = static_cast<std::int32_t>(two_rings_.size());
-      two_rings_.emplace_back(modes->second, points_[v], r, q, p);
+      const std::tuple kind(valence, closed, state);
+      const auto& found = stepped_kinds_.try_emplace(kind, valence, closed, state, weights_).first->second;
+      rings_.push_back(SteppedRing<N>(found, points_[v], r, q, p));
+      if (kRounds<N> && valence >= kManyFaces)  // who asks for balls asks for few points
+        limit_of_.emplace(v, limit_at(v));
     }
   }
 
@@ -124,7 +114,7 @@ class StamData {
       if (!mesh_.is_answered(child / 4, asked)) continue;
       const std::size_t k = child % 4;
       const std::int32_t v = k == 3 ? -1 : topology_.faces()[child / 4][k];
-      if (v >= 0 && (two_ring_of_[v] >= 0 || stepped_ring_of_[v] >= 0)) continue;
+      if (v >= 0 && ring_of_[v] >= 0) continue;
       const auto face = gather_triangle<std::int32_t>(
           finer, child, [](std::int32_t point) { return point; }, mesh_.states);
       patches_[child] = face.patch([&](std::int32_t a, std::int32_t b, std::int32_t c) {
@@ -237,7 +227,7 @@ class StamData {
     // Put back growth^J, the scale of the triangle, the linear part and the limit.
     const N growth = ring.growth();
     const ParameterGradients& g = location.gradients;
-    const auto [to_first, to_second, first_size, second_size] = ring.linear_part(face, steps);
+    const auto [to_first, to_second, first_size, second_size] = ring.linear_part(face);
     result.position = ring.limit() +
                       (to_first * number_from<N>(location.u) + to_second * number_from<N>(location.v)) +
                       (local.position - s.c_to_limit) * power(growth, steps);
@@ -294,8 +284,8 @@ class StamData {
 
   /// Replaces one of d1, d2 so that their product keeps its direction and no longer cancels, near a boundary
   /// vertex: (f1 A + r1) x (f2 A + r2) = d1 x (r2 - (f2 / f1) r1).
-  template <class P, class Ring>
-  void separate_tangents(std::size_t f, const SubFaceLocation<P>& location, const Ring& ring,
+  template <class P>
+  void separate_tangents(std::size_t f, const SubFaceLocation<P>& location, const SteppedRing<N>& ring,
                          Tangents<N>& t) const {
     SurfacePoint<N> rest, factor;
     evaluate_near_corner(f, location, ring.without_dominant(), Derivatives::kFirst, rest);
@@ -324,13 +314,11 @@ class StamData {
   const std::vector<Vec3<N>>& control_;
   std::vector<Vec3<N>> points_;  ///< after one step: vertices, edge points, then ghosts
   std::vector<std::array<std::int32_t, 12>>
-      patches_;  ///< of the faces of that step; unset at irregular vertices
-  std::vector<std::int32_t> two_ring_of_;
-  std::map<std::pair<int, bool>, TwoRingModes<N>> modes_;
-  std::vector<TwoRing<N>> two_rings_;
-  std::vector<std::int32_t> stepped_ring_of_;  ///< of each vertex, -1 where it has a two-ring or is regular
+      patches_;                        ///< of the faces of that step; unset at irregular vertices
+  std::vector<std::int32_t> ring_of_;  ///< of each vertex, -1 where it is regular
+  std::map<int, TwoRingModes<N>> modes_;
   std::map<std::tuple<int, bool, VertexState>, SteppedRingKind<N>> stepped_kinds_;
-  std::vector<SteppedRing<N>> stepped_rings_;
+  std::vector<std::variant<TwoRing<N>, SteppedRing<N>>> rings_;
   std::map<std::int32_t, VertexLimit<N>> limit_of_;  ///< of vertices of many faces
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The two-ring of a vertex after any number of steps, by taking the steps: of a held vertex or a dart, whose
-// map has no such closed form as that of two_ring_modes.h, and of any vertex of many faces, where the closed
-// form would cost the square of their number.
+// The two-ring of a vertex after any number of steps, by taking the steps: on the boundary, of a held vertex or a
+// dart, and inside of any vertex of many faces, where the closed form of two_ring.h would cost the square of their
+// number.
 //
-// The points and their names are those of two_ring_modes.h, taken as differences from c, so that there is no
+// The points and their names are those of two_ring.h, taken as differences from c, so that there is no
 // eigenvalue 1, and times 2^J, so that nothing underflows and all weights are exact. A step reaches one
 // neighbour farther, so that the points around a face after J steps come from J more on either side. Only c
 // hears of all; how it moves is known beforehand, except at a dart.
@@ -23,7 +23,7 @@
 
 namespace limitcheck::reference {
 
-/// From so many faces on, an ordinary vertex takes steps, too.
+/// From so many faces on, an ordinary vertex inside takes steps, too.
 inline constexpr int kManyFaces = 65;
 
 /// All that such vertices of K faces have in common. A dart has an open sector.
@@ -61,7 +61,8 @@ class SteppedRingKind {
 template <class N>
 class SteppedRing {
  public:
-  /// As TwoRing. Keeps a pointer to the kind.
+  /// r and p have K + 1 entries on the boundary, everything else as many as there are faces. Keeps a pointer to the
+  /// kind.
   SteppedRing(const SteppedRingKind<N>& kind, const Vec3<N>& c, const std::vector<Vec3<N>>& r,
               const std::vector<Vec3<N>>& q, const std::vector<Vec3<N>>& p);
 
@@ -71,19 +72,30 @@ class SteppedRing {
   const Vec3<N>& limit() const { return limit_; }
   /// As TwoRing.
   N size(long exponent) const { return size_ * reference::power(decay_, exponent); }
-  /// As TwoRing, for an ordinary vertex on the boundary.
+  /// Of an ordinary vertex on the boundary. Near one of K != 3 faces one mode outgrows the others, and d1 and d2
+  /// become parallel to its amplitude A: d1 = f1 A + r1, d2 = f2 A + r2. The first of these rings lacks that mode
+  /// and gives r1 and r2. The second has nothing else, with (1, 0, 0) for A, and gives f1 and f2.
   SteppedRing without_dominant() const;
   SteppedRing only_dominant() const;
 
   /// Around a face after J steps, as differences from c.
   RingPoints<N> face_points(int face, long steps) const;
-  /// Not kept apart here.
-  LinearPart<N> linear_part(int, long) const { return {}; }
+  /// Zero except on an ordinary boundary of one or two faces, where the curve's mode of 1/2 is linear on each face:
+  /// it is kept apart, since it outgrows what is left.
+  LinearPart<N> linear_part(int face) const;
 
  private:
+  bool has_linear_mode() const {
+    return on_boundary() && faces() < 3 && kind_->state() == VertexState::kOrdinary;
+  }
+  N along(int i) const { return N(1) - N(2 * i) / N(faces()); }  ///< that mode in r_i
+  /// Takes away the mode of sin(i pi / K), which dominates from four faces on.
+  void drop_dominant(std::vector<Vec3<N>>& r) const;
+
   const SteppedRingKind<N>* kind_;
-  Vec3<N> limit_, heard_;
-  N size_{}, decay_{1};  ///< the second in a step, over the growth
+  Vec3<N> limit_, heard_, along_;
+  N size_{}, along_size_{}, decay_{1};  ///< the last in a step, over the growth
+  bool lacks_dominant_ = false;
   std::vector<Vec3<N>> r_, q_, p_;
 };
 
@@ -99,6 +111,8 @@ SteppedRingKind<N>::SteppedRingKind(int faces, bool closed, VertexState state, W
     largest = state == VertexState::kHeld ? N(5) / N(8) : smooth + T::cos_pi(2, faces) / N(4);
   else if (faces > 3)
     largest = smooth + T::cos_pi(1, faces) / N(4);
+  else if (faces < 3 && state == VertexState::kOrdinary)  // without the linear mode
+    largest = faces == 1 ? N(1) / N(4) : smooth;
   grown_ = largest / growth();
 
   if (state == VertexState::kHeld) return;
@@ -134,43 +148,72 @@ SteppedRing<N>::SteppedRing(const SteppedRingKind<N>& kind, const Vec3<N>& c, co
       x -= c;
     }
   decay_ = kind.grown();
+  if (has_linear_mode()) {
+    along_ = (r_.front() - r_.back()) * (N(1) / N(2));
+    along_size_ = size_;
+    r_.front() = r_.back() = (r_.front() + r_.back()) * (N(1) / N(2));  // equal, and so they stay
+    for (int i = 0; i < faces(); ++i) q_[i] -= along_ * (along(i) + along(i + 1));
+    for (int i = 0; i <= faces(); ++i) p_[i] -= along_ * (N(2) * along(i));
+  }
   heard_ = kind.heard(r_);
   limit_ = c + kind.to_limit(heard_, r_);
 }
 
 template <class N>
+LinearPart<N> SteppedRing<N>::linear_part(int face) const {
+  if (!has_linear_mode()) return {};
+  const N first = along(face), second = along(face + 1);
+  return {along_ * first, along_ * second, along_size_ * magnitude(first), along_size_ * magnitude(second)};
+}
+
+template <class N>
+void SteppedRing<N>::drop_dominant(std::vector<Vec3<N>>& r) const {
+  const Vec3<N> amplitude =
+      boundary_tangents<N>(Vec3<N>{}, std::span<const Vec3<N>>(r)).second * (N(2) / N(faces()));
+  const CircleTable<N>& circle = circle_table<N>(faces());
+  for (std::size_t i = 1; i + 1 < r.size(); ++i) r[i] -= amplitude * circle.sine[i];
+}
+
+template <class N>
 SteppedRing<N> SteppedRing<N>::without_dominant() const {
   SteppedRing result = *this;
-  const int count = kind_->faces();
-  const Vec3<N> amplitude =
-      boundary_tangents<N>(Vec3<N>{}, std::span<const Vec3<N>>(r_)).second * (N(2) / N(count));
-  const CircleTable<N>& circle = circle_table<N>(count);
-  for (std::size_t i = 1; i + 1 < r_.size(); ++i) result.r_[i] -= amplitude * circle.sine[i];
-  result.decay_ = (N(3) / N(8) + circle.cosine[2] / N(4)) / kind_->growth();
+  if (has_linear_mode()) {
+    result.along_ = Vec3<N>{};
+    result.along_size_ = N(0);
+    return result;
+  }
+  drop_dominant(result.r_);
+  result.lacks_dominant_ = true;
+  if constexpr (kRounds<N>)
+    result.decay_ =
+        std::max(N(1) / N(2), N(3) / N(8) + circle_table<N>(faces()).cosine[2] / N(4)) / kind_->growth();
   return result;
 }
 
 template <class N>
 SteppedRing<N> SteppedRing<N>::only_dominant() const {
   SteppedRing result = *this;
-  result.limit_ = result.heard_ = Vec3<N>{};
-  result.size_ = N(0);
+  result.limit_ = result.heard_ = result.along_ = Vec3<N>{};
+  result.size_ = result.along_size_ = N(0);
   for (auto* all : {&result.r_, &result.q_, &result.p_}) all->assign(all->size(), Vec3<N>{});
-  const CircleTable<N>& circle = circle_table<N>(kind_->faces());
-  for (std::size_t i = 1; i + 1 < r_.size(); ++i) result.r_[i].x = circle.sine[i];
+  if (has_linear_mode()) result.along_.x = N(1);
+  const CircleTable<N>& circle = circle_table<N>(faces());
+  for (std::size_t i = 1; i + 1 < r_.size() && !has_linear_mode(); ++i) result.r_[i].x = circle.sine[i];
   return result;
 }
 
 template <class N>
 RingPoints<N> SteppedRing<N>::face_points(int face, long steps) const {
   const bool closed = kind_->closed(), dart = kind_->state() == VertexState::kDart;
+  // What rounding leaves of the dominant mode would outgrow the rest. Of many faces that would cost too much.
+  const bool drops = lacks_dominant_ && faces() < kManyFaces;
   const long count = static_cast<long>(q_.size()), entries = static_cast<long>(r_.size());
   const auto wrap = [](long i, long n) { return static_cast<std::size_t>((i % n + n) % n); };
 
   // The r_i from `low` to `high`. Those beyond what a step still reaches are left behind; but where all are
   // needed, or there are no more than these, all are kept.
   long low = face - 2 - steps, high = face + 3 + steps;
-  const bool whole = dart || (closed && high - low + 1 >= count);
+  const bool whole = dart || drops || (closed && high - low + 1 >= count);
   if (whole) low = 0, high = entries - 1;
   if (!closed) low = std::max(low, 0L), high = std::min(high, entries - 1);
   std::vector<Vec3<N>> r, next;
@@ -211,6 +254,7 @@ RingPoints<N> SteppedRing<N>::face_points(int face, long steps) const {
     r.swap(next);
     first = low = from;
     high = to;
+    if (drops) drop_dominant(r);
     heard = dart ? kind_->heard(r) : heard * kind_->change();
   }
 
@@ -218,7 +262,14 @@ RingPoints<N> SteppedRing<N>::face_points(int face, long steps) const {
     if (const long i = face - 2 + k; closed || (i >= 0 && i <= count)) s.r[k] = at(i);
   s.first_edge_on_boundary = !closed && face == 0;
   s.last_edge_on_boundary = !closed && face + 1 == count;
-  s.complete();
+  if (s.first_edge_on_boundary) {
+    s.r[1] = ghost_point(s.c, s.r[2], s.r[3]);
+    s.q[0] = ghost_point(s.r[2], s.p[0], s.q[1]);
+  }
+  if (s.last_edge_on_boundary) {
+    s.r[4] = ghost_point(s.c, s.r[3], s.r[2]);
+    s.q[2] = ghost_point(s.r[3], s.p[1], s.q[1]);
+  }
   s.c_after = kind_->after(heard);
   s.c_to_limit = kind_->to_limit(heard, r);
   return s;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The closed-form eigenstructure against Eigen's dense eigenvalue solver, and powers against repeated
-// multiplication.
+// The closed-form eigenstructure against Eigen's dense eigenvalue solver, and rings after many steps against
+// repeated multiplication.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
+#include "reference/loop/stepped_ring.h"
 #include "reference/loop/two_ring.h"
 #include "reference/number/number_exact.h"
 
@@ -110,6 +111,39 @@ TEST(TwoRing_JordanBlocks, AreAtValenceThreeAndAtMultiplesOfSixBoundaryFaces) {
     EXPECT_EQ(geometric({k, true}, 0.5), k % 6 == 0 ? 1 : k % 3 == 0 ? 2 : 1) << k;
 }
 
+/// The largest error of a ring after many steps, relative to its slowest mode.
+template <class Ring>
+double worst_after_steps(const Ring& ring, const Matrix& m, std::vector<N> x) {
+  double worst = 0;
+  for (int step = 0; step <= 60; ++step, x = m.step(x)) {
+    if (step >= 12 && step != 39 && step != 40 && step != 60) continue;
+    for (int i = 0; i < m.count; ++i) {
+      const RingPoints<N> s = ring.face_points(i, step);
+      const auto linear = ring.linear_part(i);
+      const Vec3<N>&g1 = linear.to_first, &g2 = linear.to_second;
+      const N shrink = power(N(1) / 2, step), growth = power(N(ring.growth()), step);
+      // Position of a lattice point (a, b) of the face: limit + linear part + what is left.
+      const N scale = std::max(growth, shrink);
+      const auto check = [&](const Vec3<N>& part, int a, int b, int index, const char* what) {
+        const N got = ring.limit().x + (g1.x * a + g2.x * b) * shrink + (part.x - s.c_to_limit.x) * growth;
+        const double e = static_cast<N>(abs(got - x[index]) / scale).convert_to<double>();
+        worst = std::max(worst, e);
+        EXPECT_LE(e, 1e-30) << m.count << (m.boundary ? " boundary " : " interior ") << "step " << step
+                            << " face " << i << " " << what;
+      };
+      check(s.c, 0, 0, 0, "c");
+      check(s.r[2], 1, 0, m.r(i), "r_i");
+      check(s.r[3], 0, 1, m.r(i + 1), "r_i+1");
+      if (!s.first_edge_on_boundary) check(s.r[1], 1, -1, m.r(i - 1), "r_i-1");
+      if (!s.last_edge_on_boundary) check(s.r[4], -1, 1, m.r(i + 2), "r_i+2");
+      check(s.q[1], 1, 1, m.q(i), "q_i");
+      check(s.p[0], 2, 0, m.p(i), "p_i");
+      check(s.p[1], 0, 2, m.p(i + 1), "p_i+1");
+    }
+  }
+  return worst;
+}
+
 TEST(TwoRing_Powers, EqualRepeatedSubdivisionOfTheWholeTwoRing) {
   double worst = 0;
   for (const bool boundary : {false, true})
@@ -122,35 +156,12 @@ TEST(TwoRing_Powers, EqualRepeatedSubdivisionOfTheWholeTwoRing) {
       std::vector<Vec3<N>> r, q, p;
       for (int i = 0; i < m.rings; ++i) r.push_back(vec(m.r(i))), p.push_back(vec(m.p(i)));
       for (int i = 0; i < count; ++i) q.push_back(vec(m.q(i)));
-      const TwoRingModes<N> modes(count, boundary, Weights::kLoop);
-      const TwoRing<N> two_ring(modes, vec(0), r, q, p);
-      for (int step = 0; step <= 60; ++step) {
-        if (step < 12 || step == 39 || step == 40 || step == 60)
-          for (int i = 0; i < count; ++i) {
-            const RingPoints<N> s = two_ring.face_points(i, step);
-            const auto linear = two_ring.linear_part(i, step);
-            const Vec3<N>&g1 = linear.to_first, &g2 = linear.to_second;
-            const N shrink = power(N(1) / 2, step), growth = power(modes.growth(), step);
-            // Position of a lattice point (a, b) of the face: limit + linear part + modes; relative to the
-            // slowest mode.
-            const N scale = std::max(growth, shrink);
-            const auto check = [&](const Vec3<N>& part, int a, int b, int index, const char* what) {
-              const N got = two_ring.limit().x + (g1.x * a + g2.x * b) * shrink + part.x * growth;
-              const double e = static_cast<N>(abs(got - x[index]) / scale).convert_to<double>();
-              worst = std::max(worst, e);
-              EXPECT_LE(e, 1e-30) << count << (boundary ? " boundary " : " interior ") << "step " << step
-                                  << " face " << i << " " << what;
-            };
-            check(s.c, 0, 0, 0, "c");
-            check(s.r[2], 1, 0, m.r(i), "r_i");
-            check(s.r[3], 0, 1, m.r(i + 1), "r_i+1");
-            if (!s.first_edge_on_boundary) check(s.r[1], 1, -1, m.r(i - 1), "r_i-1");
-            if (!s.last_edge_on_boundary) check(s.r[4], -1, 1, m.r(i + 2), "r_i+2");
-            check(s.q[1], 1, 1, m.q(i), "q_i");
-            check(s.p[0], 2, 0, m.p(i), "p_i");
-            check(s.p[1], 0, 2, m.p(i + 1), "p_i+1");
-          }
-        x = m.step(x);
+      if (boundary) {
+        const SteppedRingKind<N> kind(count, false, VertexState::kOrdinary, Weights::kLoop);
+        worst = std::max(worst, worst_after_steps(SteppedRing<N>(kind, vec(0), r, q, p), m, x));
+      } else {
+        const TwoRingModes<N> modes(count, Weights::kLoop);
+        worst = std::max(worst, worst_after_steps(TwoRing<N>(modes, vec(0), r, q, p), m, x));
       }
     }
   RecordProperty("worst", std::to_string(worst));

@@ -189,18 +189,12 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   // The table stands behind an empty line.
   deliver(a, report, text, a.details ? about + "\n" : about, [&] {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, per_vertex);
-    if (!json.empty() && json != "-") verify::write_text(json, text);
-    write_forms(a.output, report, a.output.level);
     std::vector<verify::AuditMesh> meshes{{files.control, control}};
     meshes[0].depth = 0;  // as rows of files say
     meshes[0].asked_scheme = opened.chosen.scheme;
-    const std::vector<verify::AuditSubject> none;
-    const Audited audited{none, meshes, report, a.threads};
-    if (!a.output.html.empty())
-      write_html(a.output.html, report, a.output.level, [&](const verify::Result& row) {
-        return verify::error_shape(errors[row.subject], control, row);
-      });
-    write_witnesses(a.output, audited);
+    write_report(a, {{}, meshes, report, a.threads}, text, [&](const verify::Result& row) {
+      return verify::error_shape(errors[row.subject], control, row);
+    });
   });
   return signal != 0 ? kSignalled + signal : exit_code_of(report, judged);
 }

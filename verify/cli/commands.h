@@ -63,6 +63,8 @@ void show_examples(CLI::App& app);
 
 /// Puts options of a command together, under a title.
 void group(CLI::App& command, const char* title, std::initializer_list<const char*> options);
+/// Throws data::ArgumentError, "OPTION why", if one of these is given.
+void refuse(const CLI::App& command, std::initializer_list<const char*> options, const std::string& why);
 
 /// Writes to standard output or error, as visible text (verify/row/visible_text.h): all that the program prints goes this
 /// way, because names and messages are somebody else's.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "data/error.h"
 #include "verify/cli/commands.h"
 
 namespace limitcheck::cli {
@@ -90,6 +91,11 @@ void show_examples(CLI::App& app) {
 
 void group(CLI::App& command, const char* title, std::initializer_list<const char*> options) {
   for (const char* option : options) command.get_option(option)->group(title);
+}
+
+void refuse(const CLI::App& command, std::initializer_list<const char*> options, const std::string& why) {
+  for (const char* option : options)
+    if (command.count(option) > 0) throw data::ArgumentError(fmt::format("{} {}", option, why));
 }
 
 }  // namespace limitcheck::cli

@@ -48,8 +48,7 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
   for (const AuditMesh& m : meshes) {
     relations = relations || m.relations;
     schemes.insert(m.scheme());
-    const Case at(m.name, m.depth, m.depths, m.sample ? m.sample->text() : "");
-    question.cases.push_back({at, m.scheme(), cells_of(m)});
+    question.cases.push_back({case_of(m), m.scheme(), cells_of(m)});
   }
   for (const AuditSubject& s : subjects)
     for (const data::Scheme scheme : schemes) try {

@@ -6,9 +6,9 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -32,29 +32,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct HuntArguments {
-  std::string subject, time, shard = "1/1", json, junit, baseline;
+  std::string subject, shard = "1/1", json, junit, baseline;
   std::string witnesses = "limitcheck-hunt";
   std::vector<std::string> options, vary;
   std::optional<data::Scheme> scheme;
   std::uint64_t cases = 1000, seed = 1;
   int jobs = 0, attempts = verify::HuntOptions().attempts;
+  double seconds = 0;  // in place of cases; 0: cases
   bool in_process = false, resume = false;
   SubjectArguments from;
 };
 constexpr std::uint64_t kMostCases = 1'000'000'000;
-
-// "90", "90s", "15m", "1h"; in seconds.
-double seconds_of(const std::string& text) {
-  double seconds = 0;
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, seconds);
-  const std::string unit(at, end);
-  const double factor = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
-  if (error != std::errc() || !(seconds * factor > 0 && seconds < 1e9))
-    throw data::ArgumentError(
-        fmt::format("--time {}: a number of seconds, or of minutes or hours as 15m, 1h", text));
-  return seconds * factor;
-}
 
 std::vector<data::Scheme> schemes_asked(const HuntArguments& a) {
   if (a.scheme) return {*a.scheme};
@@ -78,7 +66,7 @@ struct Hunted {
   verify::HuntReport report(const HuntArguments& a) const {
     verify::HuntReport report;
     report.version = LIMITCHECK_VERSION, report.subject = subject.label();
-    report.seed = a.seed, report.asked = a.time.empty() ? a.cases : 0;
+    report.seed = a.seed, report.asked = a.seconds == 0 ? a.cases : 0;
     report.varied = a.vary;
     for (const verify::Does& d : does) report.schemes.emplace_back(data::name_of(d.scheme));
     return report;
@@ -124,7 +112,7 @@ void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& co
   verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {a.attempts, a.witnesses});
   std::uint64_t shown = report.findings.size();
   counters.cases += report.cases, counters.findings += shown;
-  for (std::uint64_t n = 0; a.time.empty() ? n < a.cases : Clock::now() < end; ++n) {
+  for (std::uint64_t n = 0; a.seconds == 0 ? n < a.cases : Clock::now() < end; ++n) {
     if (!journal.plan().has(n)) {
       n += verify::HuntPlan::kBlock - 1;
       continue;
@@ -194,7 +182,6 @@ int hunt(HuntArguments a) {
   if (a.resume && (a.json.empty() || a.json == "-"))
     throw data::ArgumentError("--resume needs --json FILE: what was done is beside it, in FILE.part1 ..");
   const verify::Shard shard = verify::parse_shard(a.shard);
-  const double seconds = a.time.empty() ? 0 : seconds_of(a.time);
   std::optional<verify::HuntReport> earlier;
   if (!a.baseline.empty()) earlier = baseline(a.baseline);
   const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
@@ -215,7 +202,7 @@ int hunt(HuntArguments a) {
   const verify::InterruptGuard guard;
   const auto start = Clock::now();
   const auto end =
-      start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+      start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(a.seconds));
   PartFiles files(a, header, shard);
   Progress progress;
   const int code = run_jobs(
@@ -229,9 +216,9 @@ int hunt(HuntArguments a) {
       [&](const JobCounters& c) {
         const double since = std::chrono::duration<double>(Clock::now() - start).count();
         const auto done =
-            static_cast<std::size_t>(a.time.empty() ? c.cases.load() : static_cast<std::uint64_t>(since));
-        const auto total = static_cast<std::size_t>(a.time.empty() ? a.cases / shard.count
-                                                                   : static_cast<std::uint64_t>(seconds));
+            static_cast<std::size_t>(a.seconds == 0 ? c.cases.load() : static_cast<std::uint64_t>(since));
+        const auto total = static_cast<std::size_t>(a.seconds == 0 ? a.cases / shard.count
+                                                                   : static_cast<std::uint64_t>(a.seconds));
         progress.show(done, total,
                       fmt::format("{} cases, {:.1f} a second, {} findings", c.cases.load(),
                                   static_cast<double>(c.cases) / std::max(since, 1e-3), c.findings.load()));
@@ -277,7 +264,11 @@ void add_hunt(CLI::App& app, int& exit_code) {
                       "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND");
   CLI::Option* cases =
       add_number<std::uint64_t>(*command, "--cases", a->cases, 1, kMostCases, "How many cases");
-  command->add_option("--time", a->time, "How long, in place of --cases: 90s, 15m, 1h")->excludes(cases);
+  const std::map<std::string, double> units{{"s", 1}, {"m", 60}, {"h", 3600}};
+  add_value(*command, "--time", a->seconds, "TEXT", "How long, in place of --cases: 90s, 15m, 1h")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE).description(""))
+      ->check(CLI::Range(1e-9, 1e9).description(""))
+      ->excludes(cases);
   command->add_option("--seed", a->seed, "Another seed makes other cases; the same one the same")
       ->check(kSeed)
       ->capture_default_str();

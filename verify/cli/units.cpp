@@ -40,15 +40,12 @@ bool is_file(const std::string& json) {
   return !json.empty() && json != "-" && (type == fs::file_type::not_found || type == fs::file_type::regular);
 }
 
-struct Unmap {
-  void operator()(JobCounters* counters) const { munmap(counters, sizeof *counters); }
-};
-
-std::unique_ptr<JobCounters, Unmap> shared_counters() {
+// As long as this process lives.
+JobCounters& shared_counters() {
   void* memory =
       mmap(nullptr, sizeof(JobCounters), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
-  return std::unique_ptr<JobCounters, Unmap>(new (memory) JobCounters{});
+  return *new (memory) JobCounters{};
 }
 
 // In the new process.
@@ -151,13 +148,13 @@ int run_units(const ShardArguments& a, verify::Plan plan,
 
 int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show) {
-  const auto counters = shared_counters();
+  JobCounters& counters = shared_counters();
   std::fflush(nullptr);
   std::vector<pid_t> running;
   int code = 0;
   for (int job = 0; job < jobs; ++job) {
     const pid_t pid = fork();
-    if (pid == 0) run_job(job, *counters, work);
+    if (pid == 0) run_job(job, counters, work);
     if (pid < 0) {
       say(stderr, "limitcheck: a process cannot be started: {}\n", std::strerror(errno));
       code = kBadInput;
@@ -177,7 +174,7 @@ int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
       code = std::max(code, WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status));
       return true;
     });
-    show(*counters);
+    show(counters);
     usleep(50'000);
   }
   return code;

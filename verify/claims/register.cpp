@@ -44,8 +44,8 @@ std::vector<std::pair<std::string, std::int64_t>> count_verdicts(const std::vect
   std::vector<std::pair<std::string, std::int64_t>> counts;
   const auto json = nlohmann::ordered_json::parse(kClaimRegister);
   for (const auto& item : json["verdicts"].items())
-    counts.emplace_back(item.key(), std::count_if(claims.begin(), claims.end(),
-                                                  [&](const Claim* c) { return c->verdict == item.key(); }));
+    counts.emplace_back(
+        item.key(), std::ranges::count_if(claims, [&](const Claim* c) { return c->verdict == item.key(); }));
   return counts;
 }
 
@@ -196,8 +196,8 @@ void tell_finding(ClaimResult& r) {
     r.finding += words.substr(at, open - at);
     if (open == std::string::npos || close == std::string::npos) return;
     const std::string name = words.substr(open + 1, close - open - 1);
-    const auto figure = std::find_if(r.figures.begin(), r.figures.end(),
-                                     [&](const auto& recorded) { return recorded.first == name; });
+    const auto figure =
+        std::ranges::find_if(r.figures, [&](const auto& recorded) { return recorded.first == name; });
     r.finding += figure != r.figures.end() ? figure->second : "?";
     if (figure == r.figures.end() && r.outcome == ClaimOutcome::kHeld) {
       r.outcome = ClaimOutcome::kNotHeld;

@@ -137,9 +137,8 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
   if (signal != 0) return fmt::format("interrupted by {}", verify::signal_name(signal));
   if (!auditor.lack().empty()) return auditor.lack();
   if (report.looked() || !whole) return "";
-  return nothing_looked_at(std::any_of(meshes.begin(), meshes.end(), [](const verify::AuditMesh& m) {
-    return !m.mesh.faces.are_triangles();
-  }));
+  return nothing_looked_at(
+      std::ranges::any_of(meshes, [](const verify::AuditMesh& m) { return !m.mesh.faces.are_triangles(); }));
 }
 
 // Whether nothing was judged on a mesh that the user named; says so.
@@ -171,7 +170,7 @@ int audit(const Job& a) {
   const std::vector<verify::AuditMesh>& meshes = asked.list;
   verify::Report report = begin_report(a, audited, meshes);
   const auto left_out = [&](std::string_view check) {
-    return std::find(a.left_out.begin(), a.left_out.end(), check) != a.left_out.end();
+    return std::ranges::find(a.left_out, check) != a.left_out.end();
   };
   const bool few = a.subject == "all" && a.plan;
   std::vector<verify::AuditSubject> covering = audited;

@@ -30,7 +30,7 @@ std::vector<std::string> left_out_by(const std::string& checks) {
   for (const std::string& word : CLI::detail::split(checks, ',')) {
     const bool without = word.starts_with('-');
     const std::string check(verify::current_name(std::string_view(word).substr(without ? 1 : 0)));
-    if (std::find(known.begin(), known.end(), check) == known.end())
+    if (std::ranges::find(known, check) == known.end())
       throw data::ArgumentError(
           fmt::format("--checks: there is no check '{}'; there are: {}", check, fmt::join(known, ", ")));
     // Of a subject that delivers points of the refined mesh, positions are that row.
@@ -60,7 +60,7 @@ Rerun findings_of(const std::string& file) {
     if (r.check.starts_with("file-"))
       throw data::ArgumentError(fmt::format(
           "--rerun {}: it is of finished files; audit these again with --baseline {}", file, file));
-    if (std::find(again.subjects.begin(), again.subjects.end(), r.subject) == again.subjects.end())
+    if (std::ranges::find(again.subjects, r.subject) == again.subjects.end())
       again.subjects.push_back(r.subject);
     again.findings.push_back(std::move(r));
   }
@@ -87,8 +87,7 @@ AuditedMeshes meshes_again(const Rerun& again) {
       asked.list.back().relations = false;
     }
     const auto& relations = verify::relation_rows();
-    if (std::find(relations.begin(), relations.end(), r.check) != relations.end())
-      asked.list[at->second].relations = true;
+    if (std::ranges::find(relations, r.check) != relations.end()) asked.list[at->second].relations = true;
   }
   return asked;
 }

@@ -64,10 +64,10 @@ std::vector<std::string> files_of(const FilesArguments& files) {
       for (const auto& entry : fs::directory_iterator(name))
         if (kTypes.contains(entry.path().extension())) here.push_back(entry.path());
       if (here.empty()) throw data::ArgumentError(name + ": there is no tessellation in this folder");
-      std::sort(here.begin(), here.end());
+      std::ranges::sort(here);
     }
     for (std::string& file : here)
-      if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(std::move(file));
+      if (std::ranges::find(all, file) == all.end()) all.push_back(std::move(file));
   }
   if (all.size() > 1 && !(files.provenance.empty() && files.per_vertex.empty()))
     throw data::ArgumentError("--provenance and --per-vertex are of one file, and several are named");

@@ -60,8 +60,7 @@ std::vector<std::string> default_names(const Job& a, const std::vector<verify::A
   for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
   if (a.mesh.scheme == data::Scheme::kLoop) return names;
   for (const verify::AuditMesh& m : verify::default_plan(a.level(), audited))
-    if (m.scheme() == data::Scheme::kCatmullClark &&
-        std::find(names.begin(), names.end(), m.name) == names.end())
+    if (m.scheme() == data::Scheme::kCatmullClark && std::ranges::find(names, m.name) == names.end())
       names.push_back(m.name);
   return names;
 }

@@ -328,8 +328,7 @@ std::string nothing_looked_at(bool polygons) {
 
 int exit_code_of(const verify::Report& report, bool judged) {
   if (!report.looked()) return kBadInput;
-  if ((!judged || !report.host_sufficed()) &&
-      std::none_of(report.results.begin(), report.results.end(), verify::is_bad))
+  if ((!judged || !report.host_sufficed()) && std::ranges::none_of(report.results, verify::is_bad))
     return kBadInput;
   return report.held() ? kHeld : kFindings;
 }

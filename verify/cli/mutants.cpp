@@ -76,8 +76,7 @@ std::string to_table(const KillTable& table) {
     rows.back().cells.push_back({fmt::format("{}", fmt::join(others, ", "))});
   }
   std::string out = verify::table(columns, rows, screen, 0);
-  const auto killed =
-      std::count_if(table.kills.begin(), table.kills.end(), [](const Kill& k) { return k.by_its_check(); });
+  const auto killed = std::ranges::count_if(table.kills, [](const Kill& k) { return k.by_its_check(); });
   out += fmt::format("\n{} mutants, {} killed by the check meant for them; {} checks kill nothing{}\n",
                      table.kills.size(), killed, table.idle.size(),
                      table.idle.empty() ? "" : fmt::format(": {}", fmt::join(table.idle, ", ")));

@@ -96,8 +96,7 @@ std::string what_was_meant(const std::string& word) {
 
 bool is_command(const CLI::App& app, const std::string& word) {
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  return std::any_of(commands.begin(), commands.end(),
-                     [&](const CLI::App* command) { return command->check_name(word); });
+  return std::ranges::any_of(commands, [&](const CLI::App* command) { return command->check_name(word); });
 }
 
 constexpr const char* kTags =

@@ -33,9 +33,8 @@ bool is_file(const std::string& name) {
 bool is_mesh_name(const std::string& text) {
   const std::string word = text.substr(0, text.find(':'));
   const auto all = data::named_meshes();
-  return std::any_of(all.begin(), all.end(), [&](const data::NamedMesh& m) {
-    return m.name.substr(0, m.name.find_first_of(":[")) == word;
-  });
+  return std::ranges::any_of(
+      all, [&](const data::NamedMesh& m) { return m.name.substr(0, m.name.find_first_of(":[")) == word; });
 }
 
 bool names_a_library(const std::string& name) {

@@ -62,10 +62,10 @@ Json errors(const Report& report) {
       for (const Result& r : report.results) {
         if (r.subject != subject || (r.unit == "degrees") != normals || r.decades.size() != counts.size())
           continue;
-        std::transform(counts.begin(), counts.end(), r.decades.begin(), counts.begin(), std::plus<>());
+        std::ranges::transform(counts, r.decades, counts.begin(), std::plus<>());
         bound = std::max(bound, r.bound.value_or(0));
       }
-      if (*std::max_element(counts.begin(), counts.end()) > 0)
+      if (*std::ranges::max_element(counts) > 0)
         list.push_back({{"subject", subject},
                         {"of", normals ? "normals" : "positions"},
                         {"bound", bound > 0 ? Json(bound) : Json(nullptr)},
@@ -183,7 +183,7 @@ struct Shown {
     for (std::size_t k = 0; k < triangles.size(); ++k)
       if (const Vector& p = positions[triangles[k][0]]; is_finite(p))
         order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     order.resize(std::min(order.size(), kMostTriangles));
     std::vector<std::array<std::uint32_t, 3>> kept;
     for (const auto& [distance, k] : order) kept.push_back(triangles[k]);

@@ -335,7 +335,7 @@ std::string to_json(const Report& report, const std::string& level, bool all_row
       all_rows ? std::vector<bool>(report.results.size(), true) : rows_in_full(report);
   for (std::size_t k = 0; k < report.results.size(); ++k)
     if (full[k]) out["results"].push_back(row_json(report.results[k], cause_of[k], level));
-  if (std::count(full.begin(), full.end(), false) > 0) out["in_short"] = in_short(report, full);
+  if (std::ranges::count(full, false) > 0) out["in_short"] = in_short(report, full);
   return out.dump(1, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 

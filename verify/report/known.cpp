@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "verify/report/known.h"
 
-#include <fmt/core.h>
+#include <fmt/chrono.h>
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -53,16 +53,11 @@ bool covers(const Waiver& w, const Result& r, const std::map<std::string, std::s
 }
 
 bool is_a_day(const std::string& date) {
-  constexpr std::string_view kForm = "0000-00-00";
-  std::string form = date;
-  std::replace_if(
-      form.begin(), form.end(), [](char c) { return kDigits.find(c) != std::string_view::npos; }, '0');
-  if (form != kForm) return false;
-  const auto number = [&](std::size_t at, std::size_t count) { return std::stoi(date.substr(at, count)); };
-  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
-                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                     std::chrono::day(static_cast<unsigned>(number(8, 2))))
-      .ok();
+  std::tm day{};
+  const char* const end = strptime(date.c_str(), "%Y-%m-%d", &day);
+  if (end == nullptr || *end != '\0') return false;
+  timegm(&day);  // 31 February becomes 3 March
+  return fmt::format("{:%Y-%m-%d}", day) == date;
 }
 
 nlohmann::json parse(const std::string& text) try {
@@ -293,8 +288,7 @@ Comparison compare(const Report& report, const Sums& before) {
       ++c.same;
   }
   for (const auto& [key, sum] : before)
-    if (!now.contains(key) &&
-        std::any_of(report.results.begin(), report.results.end(), [&key = key](const Result& r) {
+    if (!now.contains(key) && std::ranges::any_of(report.results, [&key = key](const Result& r) {
           return r.subject == key.first && r.check == key.second && looked_at(r);
         }))
       c.gone.push_back(fmt::format("gone: {} / {}", key.first, key.second));

@@ -20,7 +20,7 @@ using Ordered = nlohmann::ordered_json;
 
 // Tools split class names at dots, and take the last part for the class.
 std::string without_dots(std::string text) {
-  std::replace(text.begin(), text.end(), '.', '_');
+  std::ranges::replace(text, '.', '_');
   return text;
 }
 
@@ -139,7 +139,7 @@ std::string to_sarif(const Report& report, const std::vector<Cause>& causes, con
   for (const Cause& c : causes) {
     const Result& example = report.results[c.example];
     const std::string rule = visible_text(example.check);
-    const auto at = std::find(known.begin(), known.end(), rule);
+    const auto at = std::ranges::find(known, rule);
     const auto index = at - known.begin();
     if (at == known.end()) {
       known.push_back(rule);
@@ -184,8 +184,8 @@ std::string to_markdown(const Report& report, const std::vector<Cause>& causes, 
   std::string out = "# " + markdown_text(header(report)) + "\n\n| subject |", line = "\n|---|";
   std::vector<const CheckGroup*> groups;
   for (const CheckGroup& g : check_groups(report))
-    if (std::any_of(report.subjects.begin(), report.subjects.end(),
-                    [&](const std::string& s) { return verdict_of(report, s, g).looked_at > 0; }))
+    if (std::ranges::any_of(report.subjects,
+                            [&](const std::string& s) { return verdict_of(report, s, g).looked_at > 0; }))
       groups.push_back(&g);
   for (const CheckGroup* g : groups) {
     out += fmt::format(" {} |", g->title);
@@ -204,7 +204,7 @@ std::string to_markdown(const Report& report, const std::vector<Cause>& causes, 
     out += fmt::format("{}. **{}** {}: {}, in {} of {} cases\n", k + 1, c.severity(), markdown_text(who),
                        markdown_text(c.title), c.cases, c.of);
     std::string command = visible_text(command_for(report, c, level));
-    std::replace(command.begin(), command.end(), '\n', ' ');
+    std::ranges::replace(command, '\n', ' ');
     if (!command.empty()) out += fmt::format("\n        {}\n\n", command);
   }
   return out + "\n" + markdown_text(changes_line(report)) + "\n\n" + markdown_text(summary(report)) + "\n";

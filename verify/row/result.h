@@ -232,9 +232,10 @@ struct Report {
   double seconds = 0;
   std::string containment;        // how the processes of isolated subjects were held; empty: there were none
   std::vector<Receipt> receipts;  // and what they took
-  std::map<std::string, std::string> devices;  // what subjects compute on besides the processor (subject/devices.h)
-  std::string printed;            // by the subjects, on standard output and standard error
-  std::string incomplete;         // "interrupted by SIGINT": not all was looked at; empty: all was
+  std::map<std::string, std::string>
+      devices;             // what subjects compute on besides the processor (subject/devices.h)
+  std::string printed;     // by the subjects, on standard output and standard error
+  std::string incomplete;  // "interrupted by SIGINT": not all was looked at; empty: all was
 
   /// Against an earlier report (report/known.h), in rows.
   struct Changes {
@@ -246,16 +247,15 @@ struct Report {
   std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held, unless `rerun`
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
-  bool looked() const { return std::any_of(results.begin(), results.end(), looked_at); }
+  bool looked() const { return std::ranges::any_of(results, looked_at); }
   /// Whether nothing was left out for what this program or its system lacked.
   bool host_sufficed() const {
-    return std::none_of(results.begin(), results.end(),
-                        [](const Result& r) { return r.origin == Origin::kHost; });
+    return std::ranges::none_of(results, [](const Result& r) { return r.origin == Origin::kHost; });
   }
   bool held() const {
     if (!incomplete.empty() || !host_sufficed()) return false;
     if (changes && rerun.empty()) return changes->appeared + changes->worse == 0;
-    return std::none_of(results.begin(), results.end(), is_bad);
+    return std::ranges::none_of(results, is_bad);
   }
 };
 

@@ -225,7 +225,7 @@ const std::vector<RowKind>& row_kinds() {
 
 const RowKind* row_kind(std::string_view check) {
   const auto& all = row_kinds();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const RowKind& k) { return k.check == check; });
+  const auto found = std::ranges::find_if(all, [&](const RowKind& k) { return k.check == check; });
   return found == all.end() ? nullptr : &*found;
 }
 

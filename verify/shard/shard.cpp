@@ -80,7 +80,7 @@ void require_all(const std::vector<Shard>& shards) {
 
 bool PartReport::is_complete() const {
   // Not a walk through the units of the plan: a file that somebody wrote may tell of 10^18.
-  return results.size() == plan.size() && std::all_of(results.begin(), results.end(), [&](const auto& r) {
+  return results.size() == plan.size() && std::ranges::all_of(results, [&](const auto& r) {
            return r.first < plan.units && plan.has(r.first);
          });
 }

@@ -211,7 +211,7 @@ std::shared_ptr<Part> next_part(std::istream& in, std::int64_t& line) {
   in.read(part->lines.data(), kPart);
   part->lines.resize(static_cast<std::size_t>(in.gcount()));
   if (std::string rest; std::getline(in, rest)) part->lines += rest + "\n";
-  line += std::count(part->lines.begin(), part->lines.end(), '\n');
+  line += std::ranges::count(part->lines, '\n');
   return part;
 }
 

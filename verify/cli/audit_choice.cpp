@@ -12,6 +12,7 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "data/numeral.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/relations/relations.h"
@@ -48,7 +49,7 @@ std::vector<std::string> left_out_by(const std::string& checks) {
 std::optional<Sampling> parse_sample(const std::string& text) {
   if (text.empty()) return std::nullopt;
   Sampling sampling;
-  if (read_numbers(text, ':', sampling.faces, sampling.seed) == 0 || sampling.faces == 0)
+  if (data::read_numbers(text, ':', sampling.faces, sampling.seed) == 0 || sampling.faces == 0)
     throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
   return sampling;
 }

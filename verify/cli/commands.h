@@ -6,14 +6,12 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -97,16 +95,6 @@ template <class Number>
 CLI::Option* add_number(CLI::App& command, const std::string& names, Number& value, Number least, Number most,
                         const std::string& text) {
   return command.add_option(names, value, text)->check(CLI::Range(least, most))->capture_default_str();
-}
-
-/// How many numbers a text "A" or "A:B", with this separator, has; 0: it is something else.
-template <class First, class Second>
-int read_numbers(const std::string& text, char separator, First& first, Second& second) {
-  const char* const last = text.data() + text.size();
-  std::from_chars_result read = std::from_chars(text.data(), last, first);
-  const bool both = read.ec == std::errc() && read.ptr != last && *read.ptr == separator;
-  if (both) read = std::from_chars(read.ptr + 1, last, second);
-  return read.ec != std::errc() || read.ptr != last ? 0 : both ? 2 : 1;
 }
 
 /// An option whose value --help calls `type`.

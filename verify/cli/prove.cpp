@@ -12,6 +12,7 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "data/numeral.h"
 #include "data/scheme.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/commands.h"
@@ -28,7 +29,7 @@ std::vector<int> valences(const std::string& text) {
   std::set<int> all;
   for (const std::string& word : CLI::detail::split(text, ',')) {
     int first = 0, last = 0;
-    const int numbers = read_numbers(word, ':', first, last);
+    const int numbers = data::read_numbers(word, ':', first, last);
     if (numbers == 1) last = first;
     if (numbers == 0 || first < 3 || first > last || last > 20)
       throw data::ArgumentError(

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "data/error.h"
+#include "data/numeral.h"
 #include "reference/surface/channel.h"
 
 namespace limitcheck::cli {
@@ -73,7 +74,7 @@ int run(const EvalRequest& request) {
 FaceAndCorner parse_face(const std::string& text) {
   FaceAndCorner result;
   int corner = 0;
-  const int count = read_numbers(text, ':', result.face, corner);
+  const int count = data::read_numbers(text, ':', result.face, corner);
   if (count == 0)
     throw data::ArgumentError(
         fmt::format("FACE is a number from 0 in file order, or FACE:CORNER, not '{}'", text));

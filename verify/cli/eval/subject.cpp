@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/error.h"
+#include "data/numeral.h"
 #include "verify/audit/at_point.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/eval/eval.h"
@@ -22,7 +23,7 @@ using reference::Parameter;
 std::pair<std::uint32_t, std::uint32_t> fraction(const Parameter& parameter) {
   const std::string text = parameter.to_string();
   std::pair<std::uint32_t, std::uint32_t> result{0, 1};
-  if (read_numbers(text, '/', result.first, result.second) == 0)
+  if (data::read_numbers(text, '/', result.first, result.second) == 0)
     throw data::ArgumentError(fmt::format("--subject: {} is no lattice point", text));
   return result;
 }

@@ -295,9 +295,9 @@ bool settle(const ReportOptions& a, verify::Report& report) {
 
 void write_forms(const ReportOptions& a, const verify::Report& report, const std::string& level) {
   if (!a.junit.empty()) verify::write_text(a.junit, verify::to_junit(report));
-  for (const auto& [file, form] :
-       {std::pair(&a.sarif, verify::to_sarif), std::pair(&a.markdown, verify::to_markdown)})
-    if (!file->empty()) verify::write_text(*file, form(report, verify::causes(report), level));
+  if (!a.sarif.empty()) verify::write_text(a.sarif, verify::to_sarif(report, verify::causes(report), level));
+  if (!a.markdown.empty())
+    verify::write_text(a.markdown, verify::to_markdown(report, verify::causes(report), level));
 }
 
 void refuse_one_file_for_two(std::vector<std::pair<std::string, std::string>> outputs,

@@ -2,14 +2,13 @@
 // The rows of a large report that its JSON has in short: an audit of everything has 50 000 rows, of 45 MB in full.
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
-#include "data/untrusted_json.h"
 #include "verify/causes/causes.h"
 #include "verify/report/json.h"
+#include "verify/row/fields.h"
 
 namespace limitcheck::verify {
 namespace {

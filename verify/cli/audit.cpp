@@ -4,7 +4,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -184,7 +183,7 @@ int audit(const Job& a) {
 
   // Look.
   const verify::InterruptGuard guard;
-  const auto start = std::chrono::steady_clock::now();
+  const verify::Clock clock;
   SubjectOutput output(&progress);
   verify::Auditor auditor(
       a.depth, a.threads,
@@ -227,7 +226,7 @@ int audit(const Job& a) {
     report.containment = loader.containment();
     report.devices = verify::Devices::noted();
     report.receipts = receipts();
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.seconds = clock.seconds();
     report.printed = output.take();
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
     const bool whole = a.shard.of().is_whole();

@@ -7,7 +7,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -135,7 +134,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   const std::string& json = a.shard.json;
   refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}, {"--html", a.output.html}},
                           a.output);
-  const auto start = std::chrono::steady_clock::now();
+  const verify::Clock clock;
   OpenedMesh opened = open_control_mesh(files.control, a.mesh);
   for (data::Channel& channel : opened.mesh.channels)
     if (files.channel_rule) channel.rule = files.channel_rule;
@@ -181,7 +180,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   }
   progress.clear();
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = clock.seconds();
   const bool judged = settle(a.output, report);
   const std::string text = json.empty() ? ""
                                         : attested(verify::to_json(report, a.output.level, a.output.all_rows),

@@ -6,7 +6,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -28,8 +27,6 @@
 
 namespace limitcheck::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct HuntArguments {
   std::string subject, shard = "1/1", json, junit, baseline;
@@ -106,13 +103,13 @@ verify::HuntReport part_of(verify::HuntReport report, const verify::Journal& jou
 
 // Goes on where the journal ends, until all cases of its part are looked at or the time is over.
 void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& counters,
-               Clock::time_point end) {
+               const verify::Clock& clock) {
   const Hunted hunted(a);
   verify::HuntReport report = part_of(hunted.report(a), journal);
   verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {a.attempts, a.witnesses});
   std::uint64_t shown = report.findings.size();
   counters.cases += report.cases, counters.findings += shown;
-  for (std::uint64_t n = 0; a.seconds == 0 ? n < a.cases : Clock::now() < end; ++n) {
+  for (std::uint64_t n = 0; a.seconds == 0 ? n < a.cases : clock.seconds() < a.seconds; ++n) {
     if (!journal.plan().has(n)) {
       n += verify::HuntPlan::kBlock - 1;
       continue;
@@ -125,11 +122,11 @@ void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& co
     counters.findings += report.findings.size() - shown;
     shown = report.findings.size();
   }
-  const auto start = Clock::now();
+  const verify::Clock shrinking;
   hunt.shrink_findings(report);
   const std::uint64_t last = small_unit(report, journal.plan());
   nlohmann::json small = report.small_meshes();
-  small["seconds"] = std::chrono::duration<double>(Clock::now() - start).count();
+  small["seconds"] = shrinking.seconds();
   if (verify::interrupted() == 0 && journal.recall(last) == nullptr) journal.keep(last, std::move(small));
 }
 
@@ -200,9 +197,7 @@ int hunt(HuntArguments a) {
   }();
 
   const verify::InterruptGuard guard;
-  const auto start = Clock::now();
-  const auto end =
-      start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(a.seconds));
+  const verify::Clock clock;
   PartFiles files(a, header, shard);
   Progress progress;
   const int code = run_jobs(
@@ -210,11 +205,11 @@ int hunt(HuntArguments a) {
       [&](int job, JobCounters& counters) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
         const SubjectOutput silent;
-        hunt_part(a, *files.journals[static_cast<std::size_t>(job)], counters, end);
+        hunt_part(a, *files.journals[static_cast<std::size_t>(job)], counters, clock);
         return kHeld;
       },
       [&](const JobCounters& c) {
-        const double since = std::chrono::duration<double>(Clock::now() - start).count();
+        const double since = clock.seconds();
         const auto done =
             static_cast<std::size_t>(a.seconds == 0 ? c.cases.load() : static_cast<std::uint64_t>(since));
         const auto total = static_cast<std::size_t>(a.seconds == 0 ? a.cases / shard.count

@@ -175,16 +175,13 @@ verify::AuditSubject SubjectLoader::open(const std::string& text, const std::vec
 }
 
 verify::AuditSubject SubjectLoader::built_in(const lc_subject& subject) {
-  if (!arguments_.isolate) return {&subject, ""};
-  return {remote(Kind::kBuiltIn, subject.name), "", remote(Kind::kBuiltIn, subject.name, true)};
+  return arguments_.isolate ? wrapped(Kind::kBuiltIn, subject.name) : verify::AuditSubject{&subject, ""};
 }
 
 verify::AuditSubject SubjectLoader::open(const std::string& text) {
   if (text.starts_with("program:")) return {remote(Kind::kProgram, text.substr(8)), ""};
-  if (text.starts_with("shader:") || (text.ends_with(".glsl") && is_file(text))) {
-    const std::string file = text.starts_with("shader:") ? text.substr(7) : text;
-    return {remote(Kind::kShader, file), "", remote(Kind::kShader, file, true)};
-  }
+  if (text.starts_with("shader:")) return wrapped(Kind::kShader, text.substr(7));
+  if (text.ends_with(".glsl") && is_file(text)) return wrapped(Kind::kShader, text);
 
   // A file name may contain a colon: the longest that exists wins.
   std::size_t colon = is_file(text) ? std::string::npos : text.find(':');
@@ -199,7 +196,7 @@ verify::AuditSubject SubjectLoader::open(const std::string& text) {
   if (is_file(name) && !names_a_library(name) && ::access(name.c_str(), X_OK) == 0)
     return {remote(Kind::kProgram, as_command(name)), options};
   if (is_file(name) || name.find('/') != std::string::npos || names_a_library(name))
-    return {remote(Kind::kLibrary, name), options, remote(Kind::kLibrary, name, true)};
+    return wrapped(Kind::kLibrary, name, options);
 
   for (const verify::MissingSubject& missing : verify::missing_subjects())
     if (missing.name == name) throw data::ArgumentError(missing.why);

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -27,6 +26,7 @@
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
+#include "verify/row/statistics.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::cli {
@@ -129,7 +129,7 @@ std::string attested(std::string report, const nlohmann::json& plan) {
 int run_units(const ShardArguments& a, verify::Plan plan,
               const std::function<void(verify::Journal&, Progress&)>& work,
               const std::function<int(const verify::PartReport&)>& report) {
-  const auto start = std::chrono::steady_clock::now();
+  const verify::Clock clock;
   const auto journal = open_journal(a, std::move(plan));
   const verify::InterruptGuard guard;
   Progress progress;
@@ -137,7 +137,7 @@ int run_units(const ShardArguments& a, verify::Plan plan,
   progress.clear();
   const int signal = verify::interrupted();
   verify::PartReport done;
-  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  done.seconds = clock.seconds();
   if (signal != 0) done.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   if (!a.of().is_whole()) write_part(a, *journal, done);
   done.plan = journal->plan(), done.results = journal->results();

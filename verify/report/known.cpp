@@ -318,16 +318,15 @@ void compare_with_baseline(Report& report, const std::string& text, const std::s
   const bool is_text = text.starts_with(kTitle);
   const Comparison c =
       is_text ? compare(report, baseline_sums(text, file)) : compare(report, reported_rows(text, file));
-  Report::Changes changes;
+  Report::Changes& changes = report.changes.emplace();
   changes.baseline = file;
-  changes.appeared = static_cast<std::int64_t>(c.appeared.size());
-  changes.worse = static_cast<std::int64_t>(c.worse.size());
-  changes.gone = static_cast<std::int64_t>(c.gone.size());
   changes.same = c.same;
   changes.before = c.before;
-  for (const auto* list : {&c.appeared, &c.worse, &c.gone})
+  for (const auto& [list, count] :
+       {std::pair(&c.appeared, &changes.appeared), {&c.worse, &changes.worse}, {&c.gone, &changes.gone}}) {
+    *count = std::ssize(*list);
     changes.named.insert(changes.named.end(), list->begin(), list->end());
-  report.changes = std::move(changes);
+  }
 }
 
 std::string to_baseline(const Report& report) {

@@ -200,9 +200,8 @@ std::string to_markdown(const Report& report, const std::vector<Cause>& causes, 
   out += "\n";
   for (std::size_t k = 0; k < causes.size(); ++k) {
     const Cause& c = causes[k];
-    const std::string& who = c.subjects.size() == 1 ? c.subjects.front() : c.who;
-    out += fmt::format("{}. **{}** {}: {}, in {} of {} cases\n", k + 1, c.severity(), markdown_text(who),
-                       markdown_text(c.title), c.cases, c.of);
+    out += fmt::format("{}. **{}** {}: {}, in {} of {} cases\n", k + 1, c.severity(),
+                       markdown_text(c.label()), markdown_text(c.title), c.cases, c.of);
     std::string command = visible_text(command_for(report, c, level));
     std::ranges::replace(command, '\n', ' ');
     if (!command.empty()) out += fmt::format("\n        {}\n\n", command);

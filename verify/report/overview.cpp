@@ -40,17 +40,12 @@ std::string matrix(const Report& report, const Screen& screen) {
   return table_in_blocks(columns, rows, screen, 0);
 }
 
-std::string who(const Cause& cause) {
-  if (cause.subjects.size() == 1) return cause.subjects.front();
-  return cause.who;
-}
-
 std::string one_line(const Cause& cause, std::size_t number, bool colour) {
   const char* code = cause.severity() == "high" ? "31" : cause.severity() == "medium" ? "33" : "2";
   const std::string cases = cause.of > 1 ? fmt::format(" (in {} of {} cases)", cause.cases, cause.of) : "";
   return fmt::format("{:>2} {} {}: {}{}\n", number,
-                     coloured(fmt::format("{:<6}", cause.severity()), code, colour), who(cause), cause.title,
-                     cases);
+                     coloured(fmt::format("{:<6}", cause.severity()), code, colour), cause.label(),
+                     cause.title, cases);
 }
 
 }  // namespace
@@ -87,7 +82,6 @@ GroupVerdict verdict_of(const Report& report, const std::string& subject, const 
     if (is_bad(r)) bad.insert(case_of(r));
     v.waived = v.waived || r.status == Status::kWaived;
     v.stale = v.stale || r.status == Status::kUnexpectedPass;
-    v.warning = v.warning || r.status == Status::kQualityWarning;
   }
   v.bad = static_cast<std::int64_t>(bad.size());
   v.looked_at = static_cast<std::int64_t>(looked.size());

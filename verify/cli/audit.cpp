@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "data/bounding_box.h"
 #include "data/error.h"
@@ -14,11 +12,9 @@
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/refusal.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/subject/devices.h"
 #include "verify/subject/registry.h"

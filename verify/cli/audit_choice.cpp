@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit --checks LIST` and `--rerun REPORT`: which rows are looked at.
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string_view>
 #include <tuple>
-#include <utility>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"

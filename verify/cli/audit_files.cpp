@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit --control cage.obj --tessellation out.ply`.
-#include "verify/files/audit_files.h"
 
-#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,10 +12,8 @@
 #include "data/error.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/subject/shell_word.h"
 

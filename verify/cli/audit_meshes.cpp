@@ -12,7 +12,6 @@
 #include <set>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "data/error.h"
 #include "data/generators/every_neighbourhood.h"
@@ -22,7 +21,6 @@
 #include "data/worst_cases.h"
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/relations/refusal.h"
 #include "verify/report/json.h"

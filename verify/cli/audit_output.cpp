@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit`: the options for how much is checked, what is waived, and where the results go besides the table.
 #include <fmt/chrono.h>
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
-#include <optional>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
 #include "verify/audit/shrink.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/screen.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/report/known.h"
 #include "verify/row/rows.h"

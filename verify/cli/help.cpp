@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The examples of --help and of the manual page.
-#include <fmt/core.h>
 
 #include <map>
 #include <memory>
-#include <string>
 
 #include "data/error.h"
 #include "verify/cli/commands.h"

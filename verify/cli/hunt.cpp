@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "verify/hunt/hunt.h"
 
-#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/mesh_options.h"
-#include "verify/cli/screen.h"
-#include "verify/cli/subject_loader.h"
-#include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
-#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
 // limitcheck merge: the parts that --shard has made, as one process would have reported them.
-#include <fmt/core.h>
 
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/units.h"
 #include "verify/hunt/hunt_report.h"
-#include "verify/report/coverage.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {

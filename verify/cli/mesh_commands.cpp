@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // limitcheck generate, check and repair: control meshes by name, what is wrong with one, and one that can be audited
 // made of one that cannot.
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "data/generators/named_mesh.h"
 #include "data/io/gltf.h"

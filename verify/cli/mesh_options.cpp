@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/cli/mesh_options.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <utility>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "verify/mutants/mutants.h"
 
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "verify/cli/commands.h"
-#include "verify/cli/screen.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/columns.h"

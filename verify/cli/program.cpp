@@ -12,7 +12,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string_view>
 
 #include <commit.h>  // made by the build (commit.cmake)
 #include "data/error.h"

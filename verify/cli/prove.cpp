@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // limitcheck-prove, a program of its own that limitcheck prove hands over to: the kernels are the right linear maps, for every geometry of a topology.
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"

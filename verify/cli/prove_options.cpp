@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The options of limitcheck prove, known to limitcheck and to limitcheck-prove, which does it.
-#include <memory>
 
 #include "verify/cli/commands.h"
 #include "verify/cli/units.h"

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verify/cli/subject_loader.h"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
-#include <string_view>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"

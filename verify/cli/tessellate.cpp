@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 // limitcheck tessellate: the engine of fast/ as a program, from a control mesh to a file of triangles with
 // normals.
-#include <fmt/core.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "data/error.h"
 #include "fast/stream/stream_tessellator.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/cli/units.h"
 
-#include <fmt/core.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -10,16 +9,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"

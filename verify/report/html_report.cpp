@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -12,16 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "verify/evidence/evidence.h"
 #include "verify/report/forms.h"
 #include "verify/row/bounds.h"
 #include "verify/row/commands.h"
-#include "verify/row/statistics.h"
 #include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {

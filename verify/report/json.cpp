@@ -8,7 +8,6 @@
 #include "data/error.h"
 #include "data/io/atomic_file.h"
 #include "data/untrusted_json.h"
-#include "verify/causes/causes.h"
 #include "verify/report/coverage.h"
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"

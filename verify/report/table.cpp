@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "verify/row/commands.h"
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <string>
 
 #include "data/error.h"
 #include "data/numeral.h"

@@ -14,10 +14,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "data/error.h"
 #include "reference/surface/channel.h"

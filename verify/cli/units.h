@@ -67,7 +67,8 @@ std::string file_digest(const std::string& file);
 /// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/shard.h).
 std::string attested(std::string report, const nlohmann::json& plan);
 
-/// What limitcheck prove is asked for, which hands it over to limitcheck-prove.
+/// What limitcheck prove is asked for: limitcheck knows the options, and hands them over to limitcheck-prove, which does
+/// it.
 struct ProveRequest {
   std::string scheme = "loop", valences, kernel = "all", set = "standard";
   int depth = 0;

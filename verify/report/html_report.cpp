@@ -184,7 +184,8 @@ struct Shown {
     for (const auto& [distance, k] : order) kept.push_back(triangles[k]);
     triangles = std::move(kept);
   }
-  ErrorShape shape(const data::ControlMesh& control,
+  // In the colours of normals or positions, with their bound.
+  ErrorShape shape(const data::ControlMesh& control, bool normals, double bound,
                    const std::function<std::uint8_t(std::uint32_t)>& value) const {
     ErrorShape shape;
     shape.control = edges_of(control);
@@ -198,17 +199,13 @@ struct Shown {
         shape.values.push_back(value(v));
       }
     for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
+    shape.note = fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions",
+                             bound, normals ? " degrees" : " diagonals");
+    if (triangles.size() == kMostTriangles)
+      shape.note += fmt::format("; the {} triangles at the witness", kMostTriangles);
     return shape;
   }
 };
-
-std::string note_of(bool normals, double bound, std::size_t triangles) {
-  std::string note =
-      fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions", bound,
-                  normals ? " degrees" : " diagonals");
-  if (triangles == kMostTriangles) note += fmt::format("; the {} triangles at the witness", kMostTriangles);
-  return note;
-}
 
 }  // namespace
 
@@ -251,11 +248,9 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
     const Sides::Id side = truth.sides().of(point, t.place(v).face);
     return truth.has_normal(side) ? angle_degrees(t.normal(v), truth.normal(side)) : 0.0;
   };
-  ErrorShape shape = shown.shape(mesh.mesh, [&](std::uint32_t v) {
+  return shown.shape(mesh.mesh, normals, bound, [&](std::uint32_t v) {
     return value_of(error(v), normals ? bound : e.position_bound_at(e.point[v]));
   });
-  shape.note = note_of(normals, bound, shown.triangles.size());
-  return shape;
 } catch (const std::exception&) {
   return std::nullopt;  // the report has a row that says so
 }
@@ -270,12 +265,10 @@ std::optional<ErrorShape> error_shape(const VertexErrors& file, const data::Cont
   shown.keep_nearest();
   const bool normals = row.unit == "degrees";
   const double bound = normals ? file.angle_bound : file.distance_bound;
-  ErrorShape shape = shown.shape(control, [&](std::uint32_t v) {
+  return shown.shape(control, normals, bound, [&](std::uint32_t v) {
     return is_finite(file.positions[v]) ? value_of(normals ? file.angle[v] : file.distance[v], bound)
                                         : std::uint8_t{255};
   });
-  shape.note = note_of(normals, bound, shown.triangles.size());
-  return shape;
 }
 
 }  // namespace limitcheck::verify

@@ -3,7 +3,6 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "data/bounding_box.h"
@@ -259,13 +258,7 @@ int audit(const Job& a) {
     return code == kHeld && named_and_not_judged(a, report) ? int{kBadInput} : code;
   };
   if (!auditor.abandoned()) return finish();
-  int code = kBadInput;
-  try {
-    code = finish();
-  } catch (const std::exception& error) {
-    say(stderr, "limitcheck: {}\n", error.what());
-  }
-  verify::leave(code, kBadInput);
+  verify::leave(guarded(finish), kBadInput);
 }
 
 }  // namespace

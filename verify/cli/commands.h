@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -42,6 +43,9 @@ void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes
 /// The whole of main(): parses, which runs the command, and says what is wrong. Returns the exit code, which the
 /// command has stored in `exit_code`.
 int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
+
+/// What the work returns, or kBadInput and a line on standard error where it throws.
+int guarded(const std::function<int()>& work);
 
 /// Becomes limitcheck-NAME (find_program), with these arguments, or those of this program. Returns, with an exit code,
 /// only if that fails, and says why.

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,7 +22,6 @@
 #include "verify/proof/proof_set.h"
 #include "verify/report/json.h"
 #include "verify/row/statistics.h"
-#include "verify/subject/subject_error.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -48,14 +46,7 @@ JobCounters& shared_counters() {
 [[noreturn]] void run_job(int job, JobCounters& counters, const std::function<int(int, JobCounters&)>& work) {
   setpgid(0, 0);  // Ctrl-C comes to the first process, which hands it on
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  int code = kBadInput;
-  try {
-    code = work(job, counters);
-  } catch (const verify::HostLacks& lack) {
-    say(stderr, "limitcheck: {}\n", lack.text());
-  } catch (const std::exception& error) {
-    say(stderr, "limitcheck: {}\n", error.what());
-  }
+  const int code = guarded([&] { return work(job, counters); });
   std::fflush(nullptr);
   _exit(code);
 }

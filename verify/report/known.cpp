@@ -323,7 +323,8 @@ void compare_with_baseline(Report& report, const std::string& text, const std::s
   changes.same = c.same;
   changes.before = c.before;
   for (const auto& [list, count] :
-       {std::pair(&c.appeared, &changes.appeared), {&c.worse, &changes.worse}, {&c.gone, &changes.gone}}) {
+       {std::pair(&c.appeared, &changes.appeared), std::pair(&c.worse, &changes.worse),
+        std::pair(&c.gone, &changes.gone)}) {
     *count = std::ssize(*list);
     changes.named.insert(changes.named.end(), list->begin(), list->end());
   }

@@ -274,7 +274,8 @@ void evaluate_points(const EvalRequest& request, const OpenedMesh& opened) {
 
   if (!request.json) say_text(stdout, header_of(columns, channel != nullptr));
   std::int64_t line = 1;
-  using tbb::filter_mode, tbb::make_filter, Lines = std::shared_ptr<Part>;
+  using tbb::filter_mode, tbb::make_filter;
+  using Lines = std::shared_ptr<Part>;
   tbb::parallel_pipeline(
       4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
       make_filter<void, Lines>(filter_mode::serial_in_order, [&](tbb::flow_control& control) {

@@ -46,20 +46,18 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
   add_value(command, "--waivers", a.waivers, "FILE",
             "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile);
-  add_value(
-      command, "--baseline", a.baseline, "FILE",
-      "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone since, "
-      "and exit with 1 only for what is new or worse")
+  add_value(command, "--baseline", a.baseline, "FILE",
+            "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone "
+            "since, and exit with 1 only for what is new or worse")
       ->check(CLI::ExistingFile);
   add_value(command, "--save-baseline", a.save_baseline, "FILE",
             "Write what is wrong to FILE, as a small text for --baseline: a line for each subject and check");
 }
 
 void add_output_options(CLI::App& command, OutputArguments& a) {
-  add_choice(
-      command, "--level", a.level, {"quick", "standard", "thorough"},
-      "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
-      "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes");
+  add_choice(command, "--level", a.level, {"quick", "standard", "thorough"},
+             "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in "
+             "another order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes");
   add_report_options(command, a);
   add_value(command, "--html", a.html, "FILE",
             "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "

@@ -77,10 +77,9 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
   add_value(command, "--program", a.program, "COMMAND",
             "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
             "of verify/host/isolation/PROTOCOL.md");
-  add_value(
-      command, "--shader", a.shader, "FILE",
-      "Audit this GLSL file instead of SUBJECT: a function of a place, compute passes, or a tessellation "
-      "shader, as verify/subject/SHADERS.md has them")
+  add_value(command, "--shader", a.shader, "FILE",
+            "Audit this GLSL file instead of SUBJECT: a function of a place, compute passes, or a "
+            "tessellation shader, as verify/subject/SHADERS.md has them")
       ->excludes("--program");
   command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too");
   add_number(command, "--timeout", a.limits.seconds, 0.001, 86400.0,

@@ -120,8 +120,7 @@ std::string to_junit(const Report& report) {
     }
     suites += fmt::format(
         " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
-        "time=\"{:.3f}\">\n{} "
-        "</testsuite>\n",
+        "time=\"{:.3f}\">\n{} </testsuite>\n",
         xml_text(subject), tests, failures, errors, skipped, seconds, cases);
   }
   return fmt::format(

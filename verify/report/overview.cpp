@@ -154,8 +154,7 @@ std::string summary(const Report& report) {
 std::string legend(const Report& report) {
   if (report.depths == "file")
     return "held: looked at, nothing wrong; 1/1: wrong; unsupported: the file has nothing of the kind; not "
-           "asked: an option "
-           "leaves it out; not run: something before it failed.\n"
+           "asked: an option leaves it out; not run: something before it failed.\n"
            "diagonal: of the control mesh's bounding box.\n";
   return fmt::format(
       "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; unsupported: the subject does not do it; "

@@ -210,10 +210,10 @@ void add_eval(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<EvalRequest>();
   command->add_option("MESH", request->mesh, "A mesh file, or a name as `limitcheck generate` takes it")
       ->required();
-  CLI::Option* points = add_value(
-      *command, "--points", request->points, "FILE|-",
-      "Evaluate every line FACE,U,V of a file, or of standard input, on all processors, and write a line "
-      "for each: CSV with a header, or JSON with --json");
+  CLI::Option* points =
+      add_value(*command, "--points", request->points, "FILE|-",
+                "Evaluate every line FACE,U,V of a file, or of standard input, on all processors, and write "
+                "a line for each: CSV with a header, or JSON with --json");
   command
       ->add_option(
           "FACE", request->face,
@@ -233,10 +233,9 @@ void add_eval(CLI::App& app, int& exit_code) {
       "--certified", request->certified,
       "With --points: certified decimals, as many as --digits, and the largest radius; without: doubles");
   certified->needs(points);
-  add_number(
-      *command, "--derivatives", request->derivatives, 0, 2,
-      "With --points: columns for position alone (0), for normal, d1 and d2 (1), for d11, d12, d22 and "
-      "curvatures (2)")
+  add_number(*command, "--derivatives", request->derivatives, 0, 2,
+             "With --points: columns for position alone (0), for normal, d1 and d2 (1), for d11, d12, d22 "
+             "and curvatures (2)")
       ->needs(points);
   add_mesh_options(*command, request->options);
   add_number(*command, "--digits", request->digits, 1, 10000, "Significant digits");
@@ -246,12 +245,11 @@ void add_eval(CLI::App& app, int& exit_code) {
             "Loop's scheme: weights of interior vertices, Loop's or Warren's");
   command->add_flag("--json", request->json,
                     "One JSON document, numbers as decimal strings; with --points a document on each line");
-  CLI::Option* subject =
-      command
-          ->add_option("--subject", request->subject,
-                       "Show what this subject (as `limitcheck audit` takes it) delivers at the point, "
-                       "beside what it should; exit code 1 if it is wrong")
-          ->excludes(points);
+  CLI::Option* subject = command
+                             ->add_option("--subject", request->subject,
+                                          "Show what this subject (as `limitcheck audit` takes it) delivers "
+                                          "at the point, beside what it should; exit code 1 if it is wrong")
+                             ->excludes(points);
   add_number(*command, "--depth", request->depth, 0, 12,
              "With --subject: subdivision depth of every face, or of the deepest one")
       ->needs(subject);
@@ -274,9 +272,8 @@ void add_eval(CLI::App& app, int& exit_code) {
       "middle of the edge to the next corner, (1, 1) the middle of the face. Derivatives are by these "
       "parameters: d1 by U, d2 by V.\n\n"
       "Curvatures: K is positive where the surface is like a ball, negative where it is like a saddle. H, "
-      "the mean of the "
-      "two principal curvatures, is positive where the surface bends away from its normal: on a ball seen "
-      "from outside.");
+      "the mean of the two principal curvatures, is positive where the surface bends away from its normal: "
+      "on a ball seen from outside.");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <exception>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "verify/audit/shrink.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
@@ -151,17 +149,12 @@ namespace {
 
 void waive(const ReportOptions& a, verify::Report& report) {
   if (a.waivers.empty()) return;
-  const std::string text = data::io::whole_content(a.waivers);
   std::map<std::string, std::string> versions;
   for (const auto& [subject, description] : report.descriptions)
     versions[subject] = verify::version_in(description);
   const auto today = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  try {
-    verify::apply_waivers(report, verify::parse_waivers(text), versions,
-                          fmt::format("{:%Y-%m-%d}", fmt::gmtime(today)));
-  } catch (const data::ArgumentError& error) {
-    throw data::ArgumentError(fmt::format("{}: {}", a.waivers, error.what()));
-  }
+  verify::apply_waivers(report, read_file(a.waivers, verify::parse_waivers), versions,
+                        fmt::format("{:%Y-%m-%d}", fmt::gmtime(today)));
 }
 
 bool judged_as_required(const ReportOptions& a, verify::Report& report) {

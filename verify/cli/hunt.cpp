@@ -8,8 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
@@ -153,12 +151,6 @@ class PartFiles {
   std::filesystem::path folder_;
 };
 
-verify::HuntReport baseline(const std::string& file) try {
-  return verify::read_hunt_report(data::io::whole_content(file));
-} catch (const data::ArgumentError& error) {
-  throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
-}
-
 int hunt(HuntArguments a) {
   std::vector<std::string> meshes;
   take_program(a.from, a.subject, meshes);
@@ -171,7 +163,7 @@ int hunt(HuntArguments a) {
     throw data::ArgumentError("--resume needs --json FILE: what was done is beside it, in FILE.part1 ..");
   const verify::Shard shard = verify::parse_shard(a.shard);
   std::optional<verify::HuntReport> earlier;
-  if (!a.baseline.empty()) earlier = baseline(a.baseline);
+  if (!a.baseline.empty()) earlier = read_file(a.baseline, verify::read_hunt_report);
   const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
   if (a.jobs <= 0) a.jobs = tbb::info::default_concurrency();
   a.from.isolate = !a.in_process;

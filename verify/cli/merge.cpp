@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
@@ -20,14 +18,6 @@ struct MergeArguments {
   std::string output, verify;
   ReportOptions options;  // --junit, --baseline, and of an audit --require and --waivers
 };
-
-// read(text) of a file; what is wrong with it is said with its name.
-template <class Read>
-auto read_file(const std::string& file, const Read& read) try {
-  return read(data::io::whole_content(file));
-} catch (const data::ArgumentError& error) {
-  throw data::ArgumentError(fmt::format("{}: {}", file, error.what()));
-}
 
 std::string program_of(const std::string& text) {
   const nlohmann::json json = data::parse_untrusted(text);

@@ -15,8 +15,6 @@
 #include <set>
 #include <system_error>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/proof/proof_set.h"

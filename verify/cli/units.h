@@ -3,6 +3,8 @@
 // of their parts.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdint>
@@ -11,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "data/error.h"
+#include "data/io/whole_content.h"
 #include "verify/cli/screen.h"
 #include "verify/shard/shard.h"
 
@@ -59,6 +63,14 @@ struct JobCounters {
 ///   work   returns its exit code; ends by itself when it is interrupted. The processes end with this one.
 int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show);
+
+/// read(text) of a file; of what is wrong with it data::ArgumentError says in which file, too.
+template <class Read>
+auto read_file(const std::string& file, const Read& read) try {
+  return read(data::io::whole_content(file));
+} catch (const data::ArgumentError& error) {
+  throw data::ArgumentError(fmt::format("{}: {}", file, error.what()));
+}
 
 /// SHA-256 of the bytes; empty: there is no such file.
 std::string file_digest(const std::string& file);

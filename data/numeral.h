@@ -60,4 +60,14 @@ std::array<N, 3> parse(const Numeral3& text) {
   return {parse<N>(text[0]), parse<N>(text[1]), parse<N>(text[2])};
 }
 
+/// How many numbers a text "A" or "A:B", with this separator, has; 0: it is something else.
+template <class First, class Second>
+int read_numbers(const std::string& text, char separator, First& first, Second& second) {
+  const char* const last = text.data() + text.size();
+  std::from_chars_result read = std::from_chars(text.data(), last, first);
+  const bool both = read.ec == std::errc() && read.ptr != last && *read.ptr == separator;
+  if (both) read = std::from_chars(read.ptr + 1, last, second);
+  return read.ec != std::errc() || read.ptr != last ? 0 : both ? 2 : 1;
+}
+
 }  // namespace limitcheck::data

@@ -49,8 +49,7 @@ std::set<Region> regions(const Result& row) {
   for (const PlaceCount& c : row.places)
     if (c.bad > 0) found.insert(region_of(c.kind));
   if (found.empty() || found.contains(Region::kEverywhere)) return {Region::kEverywhere};
-  const auto looked_at =
-      std::find_if(row.places.begin(), row.places.end(), [](const PlaceCount& c) { return c.of > 0; });
+  const auto looked_at = std::ranges::find_if(row.places, [](const PlaceCount& c) { return c.of > 0; });
   const bool perhaps = looked_at != row.places.end() && found.contains(region_of(looked_at->kind));
   for (const Region whole : {Region::kIrregular, Region::kSharp})
     if (found.contains(whole)) std::erase_if(found, [&](Region part) { return implies(whole, part); });
@@ -77,7 +76,7 @@ struct Key {
 };
 
 bool is_one_of(const std::string& check, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), check) != names.end();
+  return std::ranges::find(names, check) != names.end();
 }
 
 // Points that are wrong say nothing of the values of channels.
@@ -140,8 +139,8 @@ class Sorting {
     merge_subjects();
     std::vector<Cause> all;
     for (auto& [key, cause] : causes_) {
-      std::sort(cause.rows.begin(), cause.rows.end());
-      std::sort(cause.direct.begin(), cause.direct.end());
+      std::ranges::sort(cause.rows);
+      std::ranges::sort(cause.direct);
       std::set<std::string> names;
       for (const std::size_t k : cause.rows) names.insert(base_name(row(k).subject));
       cause.who = names.size() == 1 ? *names.begin() : library(report_, row(cause.rows[0]).subject);
@@ -158,7 +157,7 @@ class Sorting {
   // The first of these checks among the rows; report.results.size() if there is none.
   std::size_t find(const Rows& rows, std::initializer_list<std::string_view> names) const {
     const auto found =
-        std::find_if(rows.begin(), rows.end(), [&](std::size_t k) { return is_one_of(row(k).check, names); });
+        std::ranges::find_if(rows, [&](std::size_t k) { return is_one_of(row(k).check, names); });
     return found == rows.end() ? report_.results.size() : *found;
   }
   bool has(const Rows& rows, std::string_view check) const {
@@ -183,7 +182,7 @@ class Sorting {
     for (const std::size_t k : several) {
       const std::set<Region> list = regions(row(k));
       const std::string name = base_name(row(k).subject);
-      region_[k] = *std::max_element(list.begin(), list.end(), [&](Region a, Region b) {
+      region_[k] = *std::ranges::max_element(list, [&](Region a, Region b) {
         return sure[{name, a}] < sure[{name, b}];
       });
     }
@@ -240,8 +239,7 @@ class Sorting {
   }
 
   bool has_positions(const Cause& c) const {
-    return std::any_of(c.direct.begin(), c.direct.end(),
-                       [&](std::size_t k) { return row(k).unit != "degrees"; });
+    return std::ranges::any_of(c.direct, [&](std::size_t k) { return row(k).unit != "degrees"; });
   }
 
   // What is wrong at irregular vertices only, of a subject that is wrong in irregular faces in more rows. (At

@@ -126,7 +126,7 @@ void describe_accepts(const Report& report, Cause& cause) {
   std::vector<std::string> taken;
   for (const std::size_t k : cause.direct)
     for (const std::string& what : report.results[k].accepted)
-      if (std::find(taken.begin(), taken.end(), what) == taken.end()) taken.push_back(what);
+      if (std::ranges::find(taken, what) == taken.end()) taken.push_back(what);
   std::string list = taken.empty() ? "" : ": " + fmt::format("{}", fmt::join(taken, ", "));
   constexpr std::size_t kLongest = 160;
   if (list.size() > kLongest) list = list.substr(0, list.rfind(' ', kLongest)) + " ...";
@@ -256,8 +256,8 @@ void complete(const Report& report, Cause& cause) {
     const Result& r = report.results[k];
     return std::tuple(!r.sample.empty(), difference_command(r).empty(), faces_of(report, r), r.depth, k);
   };
-  cause.example = *std::min_element(cause.direct.begin(), cause.direct.end(),
-                                    [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  cause.example = *std::ranges::min_element(cause.direct,
+                                            [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
 
   std::vector<std::size_t> looked;
   for (std::size_t k = 0; k < report.results.size(); ++k) {
@@ -288,7 +288,7 @@ std::vector<Cause> causes(const Report& report) {
     if (!cause.only_with.empty()) cause.title += "; of all neighbourhoods only with " + cause.only_with;
   }
   const auto rank = [](const Cause& c) { return std::tuple(c.size * c.share, c.size, c.cases); };
-  std::stable_sort(all.begin(), all.end(), [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });
+  std::ranges::stable_sort(all, [&](const Cause& a, const Cause& b) { return rank(a) > rank(b); });
   return all;
 }
 

@@ -28,6 +28,8 @@ struct Cause {
   std::string look;                       // where to look for it; may be empty
   std::vector<std::string> consequences;  // rows that are red because of it, and are not `direct`
 
+  /// The one subject, or whose they are.
+  const std::string& label() const { return subjects.size() == 1 ? subjects.front() : who; }
   /// "high", "medium" or "low".
   std::string_view severity() const;
 };

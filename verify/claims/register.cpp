@@ -5,7 +5,6 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,12 +13,11 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <thread>
 
 #include "verify/interrupt/interrupt.h"
-
-extern char** environ;
 
 namespace limitcheck::verify {
 namespace fs = std::filesystem;
@@ -46,8 +44,8 @@ std::vector<std::pair<std::string, std::int64_t>> count_verdicts(const std::vect
   std::vector<std::pair<std::string, std::int64_t>> counts;
   const auto json = nlohmann::ordered_json::parse(kClaimRegister);
   for (const auto& item : json["verdicts"].items())
-    counts.emplace_back(item.key(), std::count_if(claims.begin(), claims.end(),
-                                                  [&](const Claim* c) { return c->verdict == item.key(); }));
+    counts.emplace_back(
+        item.key(), std::ranges::count_if(claims, [&](const Claim* c) { return c->verdict == item.key(); }));
   return counts;
 }
 
@@ -113,27 +111,22 @@ class Scratch {
   std::string folder_ = (fs::temp_directory_path() / "limitcheck-claims-XXXXXX").string();
 };
 
-// Runs a program with its output in a file. Whether it ended by itself, in time. Throws Interrupted.
-bool run(const fs::path& program, const std::vector<std::string>& arguments, const fs::path& output) {
+// Runs a program, whose output nobody reads. Whether it ended by itself, in time. Throws Interrupted.
+bool run(const fs::path& program, std::vector<std::string> words) {
   constexpr auto kLimit = std::chrono::minutes(10);
-  std::vector<std::string> words{program.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  words.insert(words.begin(), program.string());
   std::vector<char*> argv;
   for (auto& w : words) argv.push_back(w.data());
   argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                   0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, &attributes, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  if (error != 0) return false;
+  const pid_t child = fork();
+  if (child == 0) {
+    setpgid(0, 0);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  if (child < 0) return false;
   const auto deadline = std::chrono::steady_clock::now() + kLimit;
   int status = 0;
   for (auto pause = std::chrono::milliseconds(1); waitpid(child, &status, WNOHANG) == 0;) {
@@ -160,29 +153,14 @@ std::string plain(const std::string& suite, const std::string& name) {
   return s + "." + name.substr(0, name.find('/'));
 }
 
-struct Listed {
-  std::string filter;  // as the program knows it
-  std::string plain;
-};
-
-std::vector<Listed> list_tests(const fs::path& program, const Scratch& scratch) {
-  std::vector<Listed> tests;
-  const fs::path output = scratch.file("list");
-  if (!run(program, {"--gtest_list_tests"}, output)) return tests;
-  std::ifstream in(output);
-  std::string suite;
-  for (std::string line; std::getline(in, line);) {
-    line.resize(line.find("  #") == std::string::npos ? line.size() : line.find("  #"));
-    while (!line.empty() && line.back() == ' ') line.pop_back();
-    if (line.empty()) continue;
-    if (line[0] != ' ') {
-      suite = line.back() == '.' ? line.substr(0, line.size() - 1) : "";
-    } else if (!suite.empty()) {
-      const std::string name = line.substr(line.find_first_not_of(' '));
-      tests.push_back({suite + "." + name, plain(suite, name)});
-    }
-  }
-  return tests;
+// What a program writes about its tests as JSON; nothing if it does not come to that.
+std::optional<nlohmann::json> written_by(const fs::path& program, const std::string& flag,
+                                         const Scratch& scratch) {
+  const fs::path report = scratch.file("report.json");
+  fs::remove(report);
+  const bool ended = run(program, {flag, "--gtest_output=json:" + report.string()});
+  const auto json = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+  return ended && !json.is_discarded() ? std::optional(json) : std::nullopt;
 }
 
 struct TestResult {
@@ -218,8 +196,8 @@ void tell_finding(ClaimResult& r) {
     r.finding += words.substr(at, open - at);
     if (open == std::string::npos || close == std::string::npos) return;
     const std::string name = words.substr(open + 1, close - open - 1);
-    const auto figure = std::find_if(r.figures.begin(), r.figures.end(),
-                                     [&](const auto& recorded) { return recorded.first == name; });
+    const auto figure =
+        std::ranges::find_if(r.figures, [&](const auto& recorded) { return recorded.first == name; });
     r.finding += figure != r.figures.end() ? figure->second : "?";
     if (figure == r.figures.end() && r.outcome == ClaimOutcome::kHeld) {
       r.outcome = ClaimOutcome::kNotHeld;
@@ -243,23 +221,20 @@ std::vector<ClaimResult> run_claims(
   for (std::size_t k = 0; k < programs.size(); ++k) {
     const std::string name = programs[k].filename().string();
     if (on_program) on_program(name, k, programs.size());
+    const auto listed = written_by(programs[k], "--gtest_list_tests", scratch);
+    if (!listed) continue;
     std::string filter;
     std::vector<std::string> asked;
-    for (const Listed& t : list_tests(programs[k], scratch)) {
-      if (!wanted.contains(t.plain)) continue;
-      filter += (filter.empty() ? "" : ":") + t.filter;
-      asked.push_back(t.plain);
-    }
+    for (const auto& suite : (*listed)["testsuites"])
+      for (const auto& test : suite["testsuite"]) {
+        const std::string in = suite["name"], called = test["name"];
+        if (!wanted.contains(plain(in, called))) continue;
+        filter += fmt::format("{}{}.{}", filter.empty() ? "" : ":", in, called);
+        asked.push_back(plain(in, called));
+      }
     if (asked.empty()) continue;
-    const fs::path report = scratch.file("report.json");
-    fs::remove(report);
-    const bool ended = run(
-        programs[k],
-        {fmt::format("--gtest_filter={}", filter), fmt::format("--gtest_output=json:{}", report.string())},
-        scratch.file("output"));
-    const auto json = nlohmann::json::parse(std::ifstream(report), nullptr, false);
-    if (ended && !json.is_discarded())
-      take(json, results);
+    if (const auto json = written_by(programs[k], "--gtest_filter=" + filter, scratch))
+      take(*json, results);
     else
       for (const auto& t : asked) broken[t] = name;
   }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
-#include <exception>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "data/bounding_box.h"
 #include "data/error.h"
@@ -15,11 +11,9 @@
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/relations/relations.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/subject/devices.h"
 #include "verify/subject/registry.h"
@@ -33,10 +27,9 @@ bool on_a_device(const verify::AuditSubject& subject) {
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
 // levels of isolation (Bfr's default), and isolated as deep as they are sampled.
-std::vector<verify::AuditSubject> subjects(const Job& job, SubjectLoader& loader) {
-  const AuditArguments& a = job.arguments;
+std::vector<verify::AuditSubject> subjects(const Job& a, SubjectLoader& loader) {
   std::vector<verify::AuditSubject> list;
-  for (const std::string& again : job.again.subjects) list.push_back(loader.open(again));
+  for (const std::string& again : a.again.subjects) list.push_back(loader.open(again));
   if (!list.empty()) return list;
   if (a.subject == "all") {
     if (!a.options.empty()) throw data::ArgumentError("--option needs one subject, not all");
@@ -88,24 +81,22 @@ void check_json(const std::string& json) {
 }
 
 // The header of the report.
-verify::Report begin_report(const Job& job, const std::vector<verify::AuditSubject>& subjects,
+verify::Report begin_report(const Job& a, const std::vector<verify::AuditSubject>& subjects,
                             const std::vector<verify::AuditMesh>& meshes) {
-  const AuditArguments& a = job.arguments;
   verify::Report report;
   report.version = LIMITCHECK_VERSION;
-  report.depths = a.plan ? "plan" : job.depths.kind == "file" ? job.depths.text() : job.depths.kind;
-  report.seed = job.depths.seed;
-  report.left_out = job.left_out;
+  report.depths = a.plan ? "plan" : a.chosen.kind == "file" ? a.chosen.text() : a.chosen.kind;
+  report.seed = a.chosen.seed;
+  report.left_out = a.left_out;
   report.rerun = a.rerun;
-  if (job.sampling) report.sample = fmt::format("{}:{}", job.sampling->faces, job.sampling->seed);
+  if (a.sampling) report.sample = fmt::format("{}:{}", a.sampling->faces, a.sampling->seed);
   for (const auto& s : subjects) {
     report.subjects.push_back(s.label());
     if (s.subject->description != nullptr) report.descriptions[s.label()] = s.subject->description;
   }
   for (const verify::AuditMesh& m : meshes) {
     report.depth = std::max(report.depth, m.depth);
-    if (std::none_of(report.meshes.begin(), report.meshes.end(),
-                     [&](const auto& before) { return before.name == m.name; }))
+    if (std::ranges::find(report.meshes, m.name, &verify::Report::Mesh::name) == report.meshes.end())
       report.meshes.push_back({m.name, static_cast<std::int64_t>(m.mesh.positions.size()),
                                static_cast<std::int64_t>(m.mesh.faces.size()), m.scheme(), m.triangulated,
                                data::box_diagonal(m.mesh)});
@@ -113,14 +104,11 @@ verify::Report begin_report(const Job& job, const std::vector<verify::AuditSubje
   return report;
 }
 
-Job job_of(AuditArguments a) {
+Job job_of(const AuditArguments& given) {
+  Job a{given, verify::parse_depths(given.depths), parse_sample(given.sample), left_out_by(given.checks), {}};
   refuse_one_file_for_two({{"--json", a.shard.json}, {"--html", a.output.html}}, a.output);
-  Job job;
-  job.depths = verify::parse_depths(a.depths);
-  job.sampling = parse_sample(a.sample);
-  job.left_out = left_out_by(a.checks);
   if (!a.rerun.empty()) {
-    job.again = findings_of(a.rerun);
+    a.again = findings_of(a.rerun);
     a.output.baseline = a.rerun;
     a.output.level = "thorough";  // small or large, what had findings is looked at
   }
@@ -128,15 +116,13 @@ Job job_of(AuditArguments a) {
   take_mesh(a.from, a.subject, a.meshes);
   const bool all = a.subject.empty() && a.rerun.empty();
   if (all) a.subject = "all";
-  refuse_with_shards(a);
   if (a.must_refuse && (all || a.meshes.empty()))
     throw data::ArgumentError("--must-refuse needs a subject and the files of broken meshes");
   if (a.threads <= 0) a.threads = tbb::info::default_concurrency();
   if (a.exhaustive > 0 && (a.subject == "all" || !a.meshes.empty() || !a.plan))
     throw data::ArgumentError("--exhaustive takes one subject, and chooses the meshes and depths itself");
   a.plan = a.plan && a.meshes.empty();
-  job.arguments = std::move(a);
-  return job;
+  return a;
 }
 
 // Why not all was looked at; empty: all was. Of a shard there may be nothing to look at.
@@ -145,39 +131,8 @@ std::string incomplete(const verify::Auditor& auditor, const std::vector<verify:
   if (signal != 0) return fmt::format("interrupted by {}", verify::signal_name(signal));
   if (!auditor.lack().empty()) return auditor.lack();
   if (report.looked() || !whole) return "";
-  return nothing_looked_at(std::any_of(meshes.begin(), meshes.end(), [](const verify::AuditMesh& m) {
-    return !m.mesh.faces.are_triangles();
-  }));
-}
-
-// Everything that goes into files; if all is `done`, the report makes the journal superfluous.
-void write_files(const AuditArguments& a, const Audited& audited, const std::string& json,
-                 verify::Journal* journal, bool done) {
-  const verify::Report& report = audited.report;
-  write_forms(a.output, report, a.output.level);
-  if (!a.shard.of().is_whole())
-    write_part(a.shard, *journal,
-               {{},
-                {},
-                report.seconds,
-                report.containment,
-                report.printed,
-                report.incomplete,
-                report.devices,
-                verify::receipts_json(report.receipts)});
-  else if (!a.shard.json.empty() && a.shard.json != "-")
-    verify::write_text(a.shard.json, json);
-  if (!a.report.empty()) {
-    verify::write_text(report_file(a, "json"), json);
-    verify::write_text(report_file(a, "txt"),
-                       "Root causes\n\n" +
-                           verify::causes_in_full(report, verify::causes(report), a.output.level) +
-                           "Tables\n\n" + verify::to_table(report, {}));
-  }
-  for (const std::string& html : {a.output.html, report_file(a, "html")})
-    if (!html.empty()) write_html(html, audited, a.output.level);
-  write_witnesses(a.output, audited);
-  if (journal != nullptr && done) journal->remove();
+  return nothing_looked_at(
+      std::ranges::any_of(meshes, [](const verify::AuditMesh& m) { return !m.mesh.faces.are_triangles(); }));
 }
 
 // Whether nothing was judged on a mesh that the user named; says so.
@@ -195,22 +150,21 @@ bool named_and_not_judged(const AuditArguments& a, const verify::Report& report)
   return any;
 }
 
-int audit(const Job& job) {
-  const AuditArguments& a = job.arguments;
+int audit(const Job& a) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(a.threads));
   SubjectLoader loader(a.from);
-  if (!a.rerun.empty() && job.again.findings.empty()) {
+  if (!a.rerun.empty() && a.again.findings.empty()) {
     say("{} has no findings: nothing is looked at again\n", a.rerun);
     return kHeld;
   }
-  const std::vector<verify::AuditSubject> audited = subjects(job, loader);
+  const std::vector<verify::AuditSubject> audited = subjects(a, loader);
   Progress progress;
-  const AuditedMeshes asked = meshes_of(job, audited, progress);
+  const AuditedMeshes asked = meshes_of(a, audited, progress);
   const std::vector<verify::AuditMesh>& meshes = asked.list;
-  verify::Report report = begin_report(job, audited, meshes);
+  verify::Report report = begin_report(a, audited, meshes);
   const auto left_out = [&](std::string_view check) {
-    return std::find(job.left_out.begin(), job.left_out.end(), check) != job.left_out.end();
+    return std::ranges::find(a.left_out, check) != a.left_out.end();
   };
   const bool few = a.subject == "all" && a.plan;
   std::vector<verify::AuditSubject> covering = audited;
@@ -224,19 +178,19 @@ int audit(const Job& job) {
 
   // Look.
   const verify::InterruptGuard guard;
-  const auto start = std::chrono::steady_clock::now();
+  const verify::Clock clock;
   SubjectOutput output(&progress);
   verify::Auditor auditor(
       a.depth, a.threads,
       [&](const verify::AuditStep& s) {
         progress.show(s.done, s.total, fmt::format("{} on {}: {}", s.subject, s.mesh, s.check));
       },
-      job.level());
-  if (!a.rerun.empty() || !job.left_out.empty() || few)
+      a.level());
+  if (!a.rerun.empty() || !a.left_out.empty() || few)
     auditor.judge_only(
         [&](const verify::AuditSubject& s, const verify::AuditMesh& m, std::string_view check) {
           if (few && is_left_out_there(s, m)) return false;
-          return a.rerun.empty() ? !left_out(check) : job.again.has(s.label(), m, check);
+          return a.rerun.empty() ? !left_out(check) : a.again.has(s.label(), m, check);
         });
   auditor.leave_what_is_interrupted();
   ShardArguments kept = a.shard;
@@ -267,7 +221,7 @@ int audit(const Job& job) {
     report.containment = loader.containment();
     report.devices = verify::Devices::noted();
     report.receipts = receipts();
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.seconds = clock.seconds();
     report.printed = output.take();
     const int signal = auditor.gave_up() ? verify::interrupted() : 0;
     const bool whole = a.shard.of().is_whole();
@@ -279,7 +233,19 @@ int audit(const Job& job) {
         reports && whole ? attested(verify::to_json(report, a.output.level, a.output.all_rows), plan.what)
                          : "";
     deliver(a, report, json, asked.scheme_line, [&] {
-      write_files(a, {audited, meshes, report, a.threads}, json, journal.get(), done);
+      if (!whole)
+        write_part(a.shard, *journal,
+                   {{},
+                    {},
+                    report.seconds,
+                    report.containment,
+                    report.printed,
+                    report.incomplete,
+                    report.devices,
+                    verify::receipts_json(report.receipts)});
+      const Audited all{audited, meshes, report, a.threads};
+      write_report(a, all, json, [&](const verify::Result& row) { return shape_of(all, row); });
+      if (journal != nullptr && done) journal->remove();  // the report makes it superfluous
     });
     const int later = a.output.shrink_seconds > 0 ? verify::interrupted() : signal;
     if (later != signal)
@@ -292,19 +258,13 @@ int audit(const Job& job) {
     return code == kHeld && named_and_not_judged(a, report) ? int{kBadInput} : code;
   };
   if (!auditor.abandoned()) return finish();
-  int code = kBadInput;
-  try {
-    code = finish();
-  } catch (const std::exception& error) {
-    say(stderr, "limitcheck: {}\n", error.what());
-  }
-  verify::leave(code, kBadInput);
+  verify::leave(guarded(finish), kBadInput);
 }
 
 }  // namespace
 
 verify::Level Job::level() const {
-  const std::string& level = arguments.output.level;
+  const std::string& level = output.level;
   return level == "quick"      ? verify::Level::kQuick
          : level == "thorough" ? verify::Level::kThorough
                                : verify::Level::kStandard;
@@ -315,10 +275,9 @@ void add_audit(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("audit", "Judge a tessellator against the exact surface");
   command->add_option(
       "SUBJECT", a->subject,
-      fmt::format(
-          "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), or "
-          "program:COMMAND, or shader:FILE. Without it: all on the default meshes. Built in: {}",
-          built_in_names()));
+      fmt::format("Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), "
+                  "or program:COMMAND, or shader:FILE. Without it: all on the default meshes. Built in: {}",
+                  built_in_names()));
   command->add_option(
       "MESH", a->meshes,
       "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "

@@ -49,7 +49,7 @@ void say_report(const ReportOptions& options, const verify::Report& report,
 /// the same file.
 void refuse_one_file_for_two(std::vector<std::pair<std::string, std::string>> outputs,
                              const ReportOptions& options = {});
-/// Writes what --junit, --sarif and --markdown ask for.
+/// What --junit, --sarif and --markdown ask for.
 void write_forms(const ReportOptions& options, const verify::Report& report, const std::string& level);
 
 /// How much is checked, and more outputs.
@@ -107,9 +107,8 @@ struct Rerun {
 Rerun findings_of(const std::string& file);
 
 /// The arguments as checked and completed before the first subject is called.
-struct Job {
-  AuditArguments arguments;  // with SUBJECT and --threads filled in
-  verify::Depths depths;
+struct Job : AuditArguments {
+  verify::Depths chosen;  // by --depths
   std::optional<Sampling> sampling;
   std::vector<std::string> left_out;  // by --checks
   Rerun again;
@@ -125,19 +124,15 @@ struct AuditedMeshes {
 /// default plan (verify/audit/default_plan.h): of both schemes what the subjects do or, with --scheme, of one. Throws data::ArgumentError and data::InputError.
 AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited, Progress& progress);
 
-/// One that is named, with a depth and as --depths and --sample say.
-struct OpenedAuditMesh {
-  verify::AuditMesh mesh;
-  MeshScheme chosen;
-};
-OpenedAuditMesh open_audit_mesh(const std::string& name, const data::ReadOptions& options, int depth,
-                                const std::string& depths, const std::optional<Sampling>& sampling);
+/// One that is named, with a depth and as --depths and --sample say; and what was chosen for it.
+std::pair<verify::AuditMesh, MeshScheme> open_audit_mesh(const std::string& name,
+                                                         const data::ReadOptions& options, int depth,
+                                                         const std::string& depths,
+                                                         const std::optional<Sampling>& sampling);
 /// Those of an earlier report's findings.
 AuditedMeshes meshes_again(const Rerun& again);
-/// What a shard does not do, what needs all rows, and what has no units is refused: data::ArgumentError.
-void refuse_with_shards(const AuditArguments& arguments);
-/// With finished files, --rerun and --must-refuse what has no effect there is refused, whatever options there will be:
-/// nobody is to think that it was done. Throws data::ArgumentError.
+/// With finished files, --rerun, --must-refuse and --shard what has no effect there is refused, whatever options there
+/// will be: nobody is to think that it was done. Throws data::ArgumentError.
 void refuse_what_has_no_effect(const CLI::App& command, const AuditArguments& arguments, bool files);
 
 /// Throws data::ArgumentError if the points that the audit looks at take more memory than the machine has: hours of
@@ -172,11 +167,12 @@ struct Audited {
 /// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. Throws
 /// std::runtime_error, data::InputError: a file cannot be written.
 void write_witnesses(const OutputArguments& arguments, const Audited& audited);
-/// Writes the report as a page, with the tessellation of each cause's example made anew.
-using ShapeOf = std::function<std::optional<verify::ErrorShape>(const verify::Result& row)>;
-void write_html(const std::string& file, const verify::Report& report, const std::string& level,
-                const ShapeOf& shape_of);
-void write_html(const std::string& file, const Audited& audited, const std::string& level);
+/// The tessellation that a row is about, made anew.
+std::optional<verify::ErrorShape> shape_of(const Audited& audited, const verify::Result& row);
+/// Writes the JSON of a whole report, as --json says, and what the other options ask for; of each cause the page shows
+/// what `shape` returns for its example.
+void write_report(const AuditArguments& arguments, const Audited& audited, const std::string& json,
+                  const std::function<std::optional<verify::ErrorShape>(const verify::Result& row)>& shape);
 
 /// `limitcheck audit --control cage.obj --tessellation out.ply`: the part of the audit that needs no program.
 struct FilesArguments {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit --checks LIST` and `--rerun REPORT`: which rows are looked at.
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string_view>
 #include <tuple>
-#include <utility>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "data/numeral.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
 #include "verify/relations/relations.h"
@@ -30,7 +28,7 @@ std::vector<std::string> left_out_by(const std::string& checks) {
   for (const std::string& word : CLI::detail::split(checks, ',')) {
     const bool without = word.starts_with('-');
     const std::string check(verify::current_name(std::string_view(word).substr(without ? 1 : 0)));
-    if (std::find(known.begin(), known.end(), check) == known.end())
+    if (std::ranges::find(known, check) == known.end())
       throw data::ArgumentError(
           fmt::format("--checks: there is no check '{}'; there are: {}", check, fmt::join(known, ", ")));
     // Of a subject that delivers points of the refined mesh, positions are that row.
@@ -48,7 +46,7 @@ std::vector<std::string> left_out_by(const std::string& checks) {
 std::optional<Sampling> parse_sample(const std::string& text) {
   if (text.empty()) return std::nullopt;
   Sampling sampling;
-  if (read_numbers(text, ':', sampling.faces, sampling.seed) == 0 || sampling.faces == 0)
+  if (data::read_numbers(text, ':', sampling.faces, sampling.seed) == 0 || sampling.faces == 0)
     throw data::ArgumentError(fmt::format("--sample {}: FACES or FACES:SEED", text));
   return sampling;
 }
@@ -60,7 +58,7 @@ Rerun findings_of(const std::string& file) {
     if (r.check.starts_with("file-"))
       throw data::ArgumentError(fmt::format(
           "--rerun {}: it is of finished files; audit these again with --baseline {}", file, file));
-    if (std::find(again.subjects.begin(), again.subjects.end(), r.subject) == again.subjects.end())
+    if (std::ranges::find(again.subjects, r.subject) == again.subjects.end())
       again.subjects.push_back(r.subject);
     again.findings.push_back(std::move(r));
   }
@@ -68,8 +66,7 @@ Rerun findings_of(const std::string& file) {
 }
 
 bool Rerun::has(const std::string& subject, const verify::AuditMesh& mesh, std::string_view check) const {
-  const verify::Case at{mesh.name, mesh.depth, mesh.depths, mesh.sample ? mesh.sample->text() : ""};
-  return std::any_of(findings.begin(), findings.end(), [&](const verify::Result& r) {
+  return std::ranges::any_of(findings, [&, at = verify::case_of(mesh)](const verify::Result& r) {
     return r.subject == subject && case_of(r) == at &&
            (r.check == check || check == "tessellates" || (check == "recognised" && r.check == "positions"));
   });
@@ -84,29 +81,13 @@ AuditedMeshes meshes_again(const Rerun& again) {
       data::ReadOptions options;
       options.scheme = r.scheme;
       options.polygons = triangulation(r.triangulated);
-      asked.list.push_back(open_audit_mesh(r.mesh, options, r.depth, r.depths, parse_sample(r.sample)).mesh);
+      asked.list.push_back(open_audit_mesh(r.mesh, options, r.depth, r.depths, parse_sample(r.sample)).first);
       asked.list.back().relations = false;
     }
     const auto& relations = verify::relation_rows();
-    if (std::find(relations.begin(), relations.end(), r.check) != relations.end())
-      asked.list[at->second].relations = true;
+    if (std::ranges::find(relations, r.check) != relations.end()) asked.list[at->second].relations = true;
   }
   return asked;
-}
-
-void refuse_with_shards(const AuditArguments& a) {
-  if (a.shard.of().is_whole()) return;
-  a.shard.check();
-  for (const auto& [option, given] :
-       {std::pair{"--baseline", !a.output.baseline.empty()},
-        std::pair{"--save-baseline", !a.output.save_baseline.empty()},
-        std::pair{"--waivers", !a.output.waivers.empty()}, std::pair{"--require", !a.output.required.empty()},
-        std::pair{"--require-coverage", a.output.require_coverage}})
-    if (given)
-      throw data::ArgumentError(
-          fmt::format("{} needs the whole report: it is an option of limitcheck merge", option));
-  if (a.must_refuse) throw data::ArgumentError("--must-refuse has no shards");
-  if (!a.report.empty()) throw data::ArgumentError("--report needs the whole report, and a shard is a part");
 }
 
 void refuse_what_has_no_effect(const CLI::App& command, const AuditArguments& a, bool files) {
@@ -114,25 +95,28 @@ void refuse_what_has_no_effect(const CLI::App& command, const AuditArguments& a,
                                               "--scheme",   "--triangulate",   "--threads", "--json",
                                               "--details",  "--require",       "--junit",   "--waivers",
                                               "--baseline", "--save-baseline", "--html",    "--witnesses"};
-  static const std::set<std::string> kNotAgain{
-      "SUBJECT",       "MESH",       "--checks",      "--depth",           "--depths",  "--sample",
-      "--exhaustive",  "--scheme",   "--triangulate", "--option",          "--program", "--level",
-      "--must-refuse", "--baseline", "--shard",       "--require-coverage"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string& name = option->get_name();
-    if (option->count() == 0) continue;
-    if (name == "--checks" && a.checks.empty()) throw data::ArgumentError("--checks names no check");
-    if (files && option->get_group() != kFilesGroup && !kOfFiles.contains(name))
+  for (const CLI::Option* option : command.get_options())
+    if (files && option->count() > 0 && option->get_group() != kFilesGroup &&
+        !kOfFiles.contains(option->get_name()))
       throw data::ArgumentError(
-          fmt::format("{} has no effect on finished tessellations (--tessellation)", name));
-    if (!a.rerun.empty() && kNotAgain.contains(name))
-      throw data::ArgumentError(
-          fmt::format("{} has no effect with --rerun, which looks at what the report says", name));
+          fmt::format("{} has no effect on finished tessellations (--tessellation)", option->get_name()));
+  if (a.checks.empty()) refuse(command, {"--checks"}, "names no check");
+  if (!a.rerun.empty())
+    refuse(command,
+           {"SUBJECT", "MESH", "--checks", "--depth", "--depths", "--sample", "--exhaustive", "--scheme",
+            "--triangulate", "--option", "--program", "--level", "--must-refuse", "--baseline", "--shard",
+            "--require-coverage"},
+           "has no effect with --rerun, which looks at what the report says");
+  if (!a.shard.of().is_whole()) {
+    a.shard.check();
+    refuse(command, {"--baseline", "--save-baseline", "--waivers", "--require", "--require-coverage"},
+           "needs the whole report: it is an option of limitcheck merge");
+    refuse(command, {"--must-refuse"}, "has no shards");
+    refuse(command, {"--report"}, "needs the whole report, and a shard is a part");
   }
-  if (a.must_refuse && !a.checks.empty())
-    throw data::ArgumentError("--checks has no effect with --must-refuse, which looks at one thing alone");
-  const std::vector<std::string> left_out = left_out_by(a.checks);
-  if (a.output.require_coverage && std::count(left_out.begin(), left_out.end(), "positions") > 0)
+  if (a.must_refuse)
+    refuse(command, {"--checks"}, "has no effect with --must-refuse, which looks at one thing alone");
+  if (a.output.require_coverage && std::ranges::count(left_out_by(a.checks), "positions") > 0)
     throw data::ArgumentError("--require-coverage needs positions, which --checks leaves out");
 }
 

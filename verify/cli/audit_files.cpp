@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit --control cage.obj --tessellation out.ply`.
-#include "verify/files/audit_files.h"
 
-#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -16,10 +12,8 @@
 #include "data/error.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/subject/shell_word.h"
 
@@ -64,10 +58,10 @@ std::vector<std::string> files_of(const FilesArguments& files) {
       for (const auto& entry : fs::directory_iterator(name))
         if (kTypes.contains(entry.path().extension())) here.push_back(entry.path());
       if (here.empty()) throw data::ArgumentError(name + ": there is no tessellation in this folder");
-      std::sort(here.begin(), here.end());
+      std::ranges::sort(here);
     }
     for (std::string& file : here)
-      if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(std::move(file));
+      if (std::ranges::find(all, file) == all.end()) all.push_back(std::move(file));
   }
   if (all.size() > 1 && !(files.provenance.empty() && files.per_vertex.empty()))
     throw data::ArgumentError("--provenance and --per-vertex are of one file, and several are named");
@@ -135,7 +129,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   const std::string& json = a.shard.json;
   refuse_one_file_for_two({{"--json", json}, {"--per-vertex", files.per_vertex}, {"--html", a.output.html}},
                           a.output);
-  const auto start = std::chrono::steady_clock::now();
+  const verify::Clock clock;
   OpenedMesh opened = open_control_mesh(files.control, a.mesh);
   for (data::Channel& channel : opened.mesh.channels)
     if (files.channel_rule) channel.rule = files.channel_rule;
@@ -181,7 +175,7 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   }
   progress.clear();
   if (signal != 0) report.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.seconds = clock.seconds();
   const bool judged = settle(a.output, report);
   const std::string text = json.empty() ? ""
                                         : attested(verify::to_json(report, a.output.level, a.output.all_rows),
@@ -189,18 +183,12 @@ int audit_files(const FilesArguments& files, const AuditArguments& a) {
   // The table stands behind an empty line.
   deliver(a, report, text, a.details ? about + "\n" : about, [&] {
     if (!files.per_vertex.empty() && signal == 0) verify::write_text(files.per_vertex, per_vertex);
-    if (!json.empty() && json != "-") verify::write_text(json, text);
-    write_forms(a.output, report, a.output.level);
     std::vector<verify::AuditMesh> meshes{{files.control, control}};
     meshes[0].depth = 0;  // as rows of files say
     meshes[0].asked_scheme = opened.chosen.scheme;
-    const std::vector<verify::AuditSubject> none;
-    const Audited audited{none, meshes, report, a.threads};
-    if (!a.output.html.empty())
-      write_html(a.output.html, report, a.output.level, [&](const verify::Result& row) {
-        return verify::error_shape(errors[row.subject], control, row);
-      });
-    write_witnesses(a.output, audited);
+    write_report(a, {{}, meshes, report, a.threads}, text, [&](const verify::Result& row) {
+      return verify::error_shape(errors[row.subject], control, row);
+    });
   });
   return signal != 0 ? kSignalled + signal : exit_code_of(report, judged);
 }

@@ -12,7 +12,6 @@
 #include <set>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "data/error.h"
 #include "data/generators/every_neighbourhood.h"
@@ -22,7 +21,6 @@
 #include "data/worst_cases.h"
 #include "verify/audit/default_plan.h"
 #include "verify/cli/audit.h"
-#include "verify/cli/mesh_options.h"
 #include "verify/host/host.h"
 #include "verify/relations/relations.h"
 #include "verify/report/json.h"
@@ -40,8 +38,9 @@ namespace fs = std::filesystem;
 constexpr double kBytesPerPoint = 350;
 
 // As it is opened, for an audit.
-OpenedAuditMesh audit_mesh(const std::string& name, OpenedMesh opened, const data::ReadOptions& options,
-                           int depth, const std::string& depths) {
+std::pair<verify::AuditMesh, MeshScheme> audit_mesh(const std::string& name, OpenedMesh opened,
+                                                    const data::ReadOptions& options, int depth,
+                                                    const std::string& depths) {
   verify::AuditMesh m{name, std::move(opened.mesh)};
   m.asked_scheme = opened.chosen.scheme;
   if (opened.chosen.cut > 0) m.triangulated = word(options.polygons);
@@ -50,22 +49,16 @@ OpenedAuditMesh audit_mesh(const std::string& name, OpenedMesh opened, const dat
   return {std::move(m), opened.chosen};
 }
 
-OpenedAuditMesh open_broken_mesh(const std::string& file, const AuditArguments& a) {
-  data::io::Examination found = verify::read_broken_mesh(file, a.mesh);
-  return audit_mesh(file, {std::move(found.mesh), {found.scheme, found.cut}}, a.mesh, a.depth, a.depths);
-}
-
 // Where no mesh is named and a depth is: Loop's shapes, and the quads and polygons of the plan, of the
 // schemes that the subjects do.
-std::vector<std::string> default_names(const Job& job, const std::vector<verify::AuditSubject>& audited) {
+std::vector<std::string> default_names(const Job& a, const std::vector<verify::AuditSubject>& audited) {
   std::vector<std::string> names;
-  if (job.level() != verify::Level::kQuick) names = data::worst_case_meshes();
+  if (a.level() != verify::Level::kQuick) names = data::worst_case_meshes();
   names.emplace_back("bumpy:800");
   for (std::string& shape : data::stock_shapes()) names.push_back(std::move(shape));
-  if (job.arguments.mesh.scheme == data::Scheme::kLoop) return names;
-  for (const verify::AuditMesh& m : verify::default_plan(job.level(), audited))
-    if (m.scheme() == data::Scheme::kCatmullClark &&
-        std::find(names.begin(), names.end(), m.name) == names.end())
+  if (a.mesh.scheme == data::Scheme::kLoop) return names;
+  for (const verify::AuditMesh& m : verify::default_plan(a.level(), audited))
+    if (m.scheme() == data::Scheme::kCatmullClark && std::ranges::find(names, m.name) == names.end())
       names.push_back(m.name);
   return names;
 }
@@ -142,22 +135,24 @@ AuditedMeshes every_neighbourhood(const data::ReadOptions& options, int most,
   return result;
 }
 
-AuditedMeshes open_meshes(const Job& job, const std::vector<verify::AuditSubject>& audited,
+AuditedMeshes open_meshes(const Job& a, const std::vector<verify::AuditSubject>& audited,
                           Progress& progress) {
-  const AuditArguments& a = job.arguments;
-  const std::vector<std::string> names = a.meshes.empty() ? default_names(job, audited) : a.meshes;
-  std::vector<verify::AuditMesh> meshes;
+  AuditedMeshes result;
   std::vector<MeshScheme> chosen;
-  for (const std::string& name : names) {
+  for (const std::string& name : a.meshes.empty() ? default_names(a, audited) : a.meshes) {
     progress.show(0, 1, "mesh " + name);
+    data::io::Examination broken;
+    if (a.must_refuse) broken = verify::read_broken_mesh(name, a.mesh);
     auto [mesh, scheme] = a.must_refuse
-                              ? open_broken_mesh(name, a)
-                              : open_audit_mesh(name, a.mesh, a.depth, job.depths.text(), job.sampling);
-    mesh.relations = job.level() != verify::Level::kQuick;
+                              ? audit_mesh(name, {std::move(broken.mesh), {broken.scheme, broken.cut}},
+                                           a.mesh, a.depth, a.depths)
+                              : open_audit_mesh(name, a.mesh, a.depth, a.chosen.text(), a.sampling);
+    mesh.relations = a.level() != verify::Level::kQuick;
     chosen.push_back(scheme);
-    meshes.push_back(std::move(mesh));
+    result.list.push_back(std::move(mesh));
   }
-  return {std::move(meshes), scheme_line(chosen, a.mesh)};
+  result.scheme_line = scheme_line(chosen, a.mesh);
+  return result;
 }
 
 template <class List>
@@ -175,10 +170,12 @@ std::string content(const data::ControlMesh& mesh) {
 
 }  // namespace
 
-OpenedAuditMesh open_audit_mesh(const std::string& name, const data::ReadOptions& options, int depth,
-                                const std::string& depths, const std::optional<Sampling>& sampling) {
-  OpenedAuditMesh opened = audit_mesh(name, open_control_mesh(name, options), options, depth, depths);
-  verify::AuditMesh& m = opened.mesh;
+std::pair<verify::AuditMesh, MeshScheme> open_audit_mesh(const std::string& name,
+                                                         const data::ReadOptions& options, int depth,
+                                                         const std::string& depths,
+                                                         const std::optional<Sampling>& sampling) {
+  auto opened = audit_mesh(name, open_control_mesh(name, options), options, depth, depths);
+  verify::AuditMesh& m = opened.first;
   verify::require_range(name, m.mesh, true);
   m.face_depth = verify::face_depths(verify::parse_depths(depths), m.mesh, depth);
   if (sampling) m.sample = std::make_shared<verify::MeshSample>(m.mesh, sampling->faces, sampling->seed);
@@ -186,13 +183,10 @@ OpenedAuditMesh open_audit_mesh(const std::string& name, const data::ReadOptions
   return opened;
 }
 
-AuditedMeshes meshes_of(const Job& job, const std::vector<verify::AuditSubject>& audited,
-                        Progress& progress) {
-  if (!job.arguments.rerun.empty()) return meshes_again(job.again);
-  if (job.arguments.exhaustive > 0)
-    return every_neighbourhood(job.arguments.mesh, job.arguments.exhaustive, audited.front());
-  return job.arguments.plan ? planned_meshes(job.arguments.mesh, job.level(), audited)
-                            : open_meshes(job, audited, progress);
+AuditedMeshes meshes_of(const Job& a, const std::vector<verify::AuditSubject>& audited, Progress& progress) {
+  if (!a.rerun.empty()) return meshes_again(a.again);
+  if (a.exhaustive > 0) return every_neighbourhood(a.mesh, a.exhaustive, audited.front());
+  return a.plan ? planned_meshes(a.mesh, a.level(), audited) : open_meshes(a, audited, progress);
 }
 
 void refuse_too_many_points(const verify::AuditMesh& mesh) {

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: MIT
 // `limitcheck audit`: the options for how much is checked, what is waived, and where the results go besides the table.
 #include <fmt/chrono.h>
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
-#include <optional>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "verify/audit/shrink.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/screen.h"
 #include "verify/interrupt/interrupt.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
 #include "verify/report/known.h"
 #include "verify/row/rows.h"
@@ -52,20 +44,18 @@ void add_report_options(CLI::App& command, ReportOptions& a) {
   add_value(command, "--waivers", a.waivers, "FILE",
             "JSON file of findings that are known and accepted until a date")
       ->check(CLI::ExistingFile);
-  add_value(
-      command, "--baseline", a.baseline, "FILE",
-      "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone since, "
-      "and exit with 1 only for what is new or worse")
+  add_value(command, "--baseline", a.baseline, "FILE",
+            "Report of an earlier audit, of --json or --save-baseline: say what is new, worse and gone "
+            "since, and exit with 1 only for what is new or worse")
       ->check(CLI::ExistingFile);
   add_value(command, "--save-baseline", a.save_baseline, "FILE",
             "Write what is wrong to FILE, as a small text for --baseline: a line for each subject and check");
 }
 
 void add_output_options(CLI::App& command, OutputArguments& a) {
-  add_choice(
-      command, "--level", a.level, {"quick", "standard", "thorough"},
-      "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in another "
-      "order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes");
+  add_choice(command, "--level", a.level, {"quick", "standard", "thorough"},
+             "quick: one tessellation of each mesh; standard: also tessellations of the mesh written in "
+             "another order, moved and scaled, for meshes of at most 200 faces; thorough: for all meshes");
   add_report_options(command, a);
   add_value(command, "--html", a.html, "FILE",
             "Write the report as one page for a browser to FILE: overview, root causes, histogram of errors, "
@@ -159,17 +149,12 @@ namespace {
 
 void waive(const ReportOptions& a, verify::Report& report) {
   if (a.waivers.empty()) return;
-  const std::string text = data::io::whole_content(a.waivers);
   std::map<std::string, std::string> versions;
   for (const auto& [subject, description] : report.descriptions)
     versions[subject] = verify::version_in(description);
   const auto today = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  try {
-    verify::apply_waivers(report, verify::parse_waivers(text), versions,
-                          fmt::format("{:%Y-%m-%d}", fmt::gmtime(today)));
-  } catch (const data::ArgumentError& error) {
-    throw data::ArgumentError(fmt::format("{}: {}", a.waivers, error.what()));
-  }
+  verify::apply_waivers(report, read_file(a.waivers, verify::parse_waivers), versions,
+                        fmt::format("{:%Y-%m-%d}", fmt::gmtime(today)));
 }
 
 bool judged_as_required(const ReportOptions& a, verify::Report& report) {
@@ -186,31 +171,34 @@ bool judged_as_required(const ReportOptions& a, verify::Report& report) {
 }
 
 // The mesh that a result is about; nullptr if it is none of these.
-const verify::AuditMesh* case_of(const verify::Result& r, const std::vector<verify::AuditMesh>& meshes) {
-  for (const verify::AuditMesh& m : meshes)
-    if (m.name == r.mesh && m.depth == r.depth && m.depths == r.depths &&
-        (m.sample ? m.sample->text() : "") == r.sample)
-      return &m;
-  return nullptr;
+const verify::AuditMesh* mesh_of(const verify::Result& r, const std::vector<verify::AuditMesh>& meshes) {
+  const auto at = std::ranges::find_if(
+      meshes, [&](const verify::AuditMesh& m) { return verify::case_of(m) == verify::case_of(r); });
+  return at == meshes.end() ? nullptr : &*at;
+}
+
+// The subject that it is about; nullptr if it is none of these.
+const verify::AuditSubject* subject_of(const verify::Result& r, const Audited& audited) {
+  const auto& labels = audited.report.subjects;
+  const auto number = static_cast<std::size_t>(std::ranges::find(labels, r.subject) - labels.begin());
+  return number < audited.subjects.size() ? &audited.subjects[number] : nullptr;
 }
 
 // One finding of each subject and check: the one on the smallest mesh.
 std::vector<const verify::Result*> smallest(const std::vector<verify::AuditMesh>& meshes,
-                                            const verify::Report& report) {
-  const auto faces = [&](const verify::Result& r) {
-    const verify::AuditMesh* m = case_of(r, meshes);
+                                            const std::vector<const verify::Result*>& findings) {
+  const auto faces = [&](const verify::Result* r) {
+    const verify::AuditMesh* m = mesh_of(*r, meshes);
     return m == nullptr ? 0 : m->mesh.faces.size();
   };
   std::vector<const verify::Result*> chosen;
-  for (const verify::Result& r : report.results) {
-    if (!verify::is_bad(r)) continue;
-    const auto same = std::find_if(chosen.begin(), chosen.end(), [&](const verify::Result* c) {
-      return c->subject == r.subject && c->check == r.check;
-    });
+  for (const verify::Result* r : findings) {
+    const auto same = std::ranges::find_if(
+        chosen, [&](const verify::Result* c) { return c->subject == r->subject && c->check == r->check; });
     if (same == chosen.end())
-      chosen.push_back(&r);
-    else if (faces(r) < faces(**same))
-      *same = &r;
+      chosen.push_back(r);
+    else if (faces(r) < faces(*same))
+      *same = r;
   }
   return chosen;
 }
@@ -222,23 +210,21 @@ void write_witnesses(const OutputArguments& a, const Audited& audited) {
   const auto& [subjects, meshes, report, threads] = audited;
   const std::string folder = a.witnesses.empty() ? "limitcheck-witness" : a.witnesses;
   std::vector<const verify::Result*> findings;
-  if (a.shrink_seconds > 0) {
-    findings = smallest(meshes, report);
-  } else {
-    for (const verify::Result& r : report.results)
-      if (verify::is_bad(r)) findings.push_back(&r);
-  }
+  for (const verify::Result& r : report.results)
+    if (verify::is_bad(r)) findings.push_back(&r);
+  if (a.shrink_seconds > 0) findings = smallest(meshes, findings);
   for (const verify::Result* finding : findings) {
     if (verify::interrupted() != 0 && a.shrink_seconds > 0) return;
-    const verify::AuditMesh* mesh = case_of(*finding, meshes);
-    const auto subject = std::find(report.subjects.begin(), report.subjects.end(), finding->subject);
-    if (mesh == nullptr || subject == report.subjects.end()) continue;
+    const verify::AuditMesh* mesh = mesh_of(*finding, meshes);
+    if (mesh == nullptr) continue;
     if (a.shrink_seconds <= 0) {
       verify::write_witness(folder, report, *finding, *mesh, a.level);
       continue;
     }
-    const auto [small, row, relation] = verify::shrink(subjects[subject - report.subjects.begin()], *mesh,
-                                                       threads, *finding, {.seconds = a.shrink_seconds});
+    const verify::AuditSubject* subject = subject_of(*finding, audited);
+    if (subject == nullptr) continue;
+    const auto [small, row, relation] =
+        verify::shrink(*subject, *mesh, threads, *finding, {.seconds = a.shrink_seconds});
     if (!row) continue;
     const auto place =
         verify::write_witness(folder, report, *row, small.mesh, relation ? "thorough" : "quick");
@@ -250,27 +236,37 @@ void write_witnesses(const OutputArguments& a, const Audited& audited) {
     say(stderr, "{} witnesses in {}\n", findings.size(), folder);
 }
 
-void write_html(const std::string& file, const verify::Report& report, const std::string& level,
-                const ShapeOf& shape_of) {
-  const std::vector<verify::Cause> causes = verify::causes(report);
-  std::vector<std::optional<verify::ErrorShape>> shapes;
-  for (const verify::Cause& c : causes) shapes.push_back(shape_of(report.results[c.example]));
-  verify::write_text(file, verify::to_html(report, causes, shapes, level));
+std::optional<verify::ErrorShape> shape_of(const Audited& audited, const verify::Result& row) {
+  const verify::AuditMesh* mesh = mesh_of(row, audited.meshes);
+  const verify::AuditSubject* subject = subject_of(row, audited);
+  // After an interrupt no subject is asked again: it may be the one that does not answer.
+  if (mesh == nullptr || subject == nullptr || !audited.report.incomplete.empty()) return std::nullopt;
+  const SubjectOutput output;  // the report has it already
+  return verify::error_shape(*subject, *mesh, row, audited.threads);
 }
 
-void write_html(const std::string& file, const Audited& audited, const std::string& level) {
+void write_report(const AuditArguments& a, const Audited& audited, const std::string& json,
+                  const std::function<std::optional<verify::ErrorShape>(const verify::Result& row)>& shape) {
   const verify::Report& report = audited.report;
-  SubjectOutput output;  // the report has it already
-  write_html(file, report, level, [&](const verify::Result& row) -> std::optional<verify::ErrorShape> {
-    const verify::AuditMesh* mesh = case_of(row, audited.meshes);
-    const auto at = std::find(report.subjects.begin(), report.subjects.end(), row.subject);
-    const auto number = static_cast<std::size_t>(at - report.subjects.begin());
-    // After an interrupt no subject is asked again: it may be the one that does not answer.
-    if (mesh == nullptr || number >= audited.subjects.size() || !report.incomplete.empty())
-      return std::nullopt;
-    return verify::error_shape(audited.subjects[number], *mesh, row, audited.threads);
-  });
-  (void)output.take();
+  const std::string& level = a.output.level;
+  write_forms(a.output, report, level);
+  if (!json.empty())
+    for (const std::string& file : {a.shard.json, report_file(a, "json")})
+      if (!file.empty() && file != "-") verify::write_text(file, json);
+  std::vector<std::string> pages{a.output.html, report_file(a, "html")};
+  std::erase(pages, "");
+  if (!pages.empty()) {
+    const std::vector<verify::Cause> causes = verify::causes(report);
+    std::vector<std::optional<verify::ErrorShape>> shapes;
+    for (const verify::Cause& c : causes) shapes.push_back(shape(report.results[c.example]));
+    for (const std::string& page : pages)
+      verify::write_text(page, verify::to_html(report, causes, shapes, level));
+    if (!a.report.empty())
+      verify::write_text(report_file(a, "txt"), "Root causes\n\n" +
+                                                    verify::causes_in_full(report, causes, level) +
+                                                    "Tables\n\n" + verify::to_table(report, {}));
+  }
+  write_witnesses(a.output, audited);
 }
 
 bool settle(const ReportOptions& a, verify::Report& report) {
@@ -317,8 +313,7 @@ std::string nothing_looked_at(bool polygons) {
 
 int exit_code_of(const verify::Report& report, bool judged) {
   if (!report.looked()) return kBadInput;
-  if ((!judged || !report.host_sufficed()) &&
-      std::none_of(report.results.begin(), report.results.end(), verify::is_bad))
+  if ((!judged || !report.host_sufficed()) && std::ranges::none_of(report.results, verify::is_bad))
     return kBadInput;
   return report.held() ? kHeld : kFindings;
 }

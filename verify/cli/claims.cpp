@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
@@ -31,7 +30,7 @@ std::vector<const Claim*> chosen(const std::vector<std::string>& ids) {
   std::vector<const Claim*> list;
   const auto& all = verify::claim_register();
   for (const std::string& id : ids) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Claim& c) { return c.id == id; });
+    const auto found = std::ranges::find_if(all, [&](const Claim& c) { return c.id == id; });
     if (found == all.end())
       throw data::ArgumentError(
           fmt::format("there is no claim '{}'; there are {} to {}", id, all.front().id, all.back().id));
@@ -147,7 +146,7 @@ int claims(const ClaimsArguments& a) {
     say("{}", to_json(results));
   else
     say_lines(to_table(results));
-  const bool held = std::all_of(results.begin(), results.end(), [](const ClaimResult& r) {
+  const bool held = std::ranges::all_of(results, [](const ClaimResult& r) {
     return r.outcome == ClaimOutcome::kHeld || r.outcome == ClaimOutcome::kNotCheckable;
   });
   return held ? kHeld : kFindings;

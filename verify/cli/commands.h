@@ -6,14 +6,13 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -45,6 +44,9 @@ void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes
 /// command has stored in `exit_code`.
 int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
 
+/// What the work returns, or kBadInput and a line on standard error where it throws.
+int guarded(const std::function<int()>& work);
+
 /// Becomes limitcheck-NAME (find_program), with these arguments, or those of this program. Returns, with an exit code,
 /// only if that fails, and says why.
 int hand_over(const std::string& name, const std::vector<std::string>& arguments);
@@ -63,6 +65,8 @@ void show_examples(CLI::App& app);
 
 /// Puts options of a command together, under a title.
 void group(CLI::App& command, const char* title, std::initializer_list<const char*> options);
+/// Throws data::ArgumentError, "OPTION why", if one of these is given.
+void refuse(const CLI::App& command, std::initializer_list<const char*> options, const std::string& why);
 
 /// Writes to standard output or error, as visible text (verify/row/visible_text.h): all that the program prints goes this
 /// way, because names and messages are somebody else's.
@@ -95,16 +99,6 @@ template <class Number>
 CLI::Option* add_number(CLI::App& command, const std::string& names, Number& value, Number least, Number most,
                         const std::string& text) {
   return command.add_option(names, value, text)->check(CLI::Range(least, most))->capture_default_str();
-}
-
-/// How many numbers a text "A" or "A:B", with this separator, has; 0: it is something else.
-template <class First, class Second>
-int read_numbers(const std::string& text, char separator, First& first, Second& second) {
-  const char* const last = text.data() + text.size();
-  std::from_chars_result read = std::from_chars(text.data(), last, first);
-  const bool both = read.ec == std::errc() && read.ptr != last && *read.ptr == separator;
-  if (both) read = std::from_chars(read.ptr + 1, last, second);
-  return read.ec != std::errc() || read.ptr != last ? 0 : both ? 2 : 1;
 }
 
 /// An option whose value --help calls `type`.

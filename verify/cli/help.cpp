@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: MIT
 // The examples of --help and of the manual page.
-#include <fmt/core.h>
 
+#include <map>
 #include <memory>
-#include <string>
 
+#include "data/error.h"
 #include "verify/cli/commands.h"
 
 namespace limitcheck::cli {
 namespace {
 
-struct Examples {
-  std::string_view command;
-  std::vector<Example> lines;
+class WithExamples : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* app) const override {
+    std::string out = app->get_description() + "\n";
+    const std::vector<Example> examples = examples_of(app->get_parent() == nullptr ? "" : app->get_name());
+    if (examples.empty()) return out;
+    out += "\nExamples:\n";
+    for (const Example& e : examples) out += fmt::format("  {}\n      {}\n", e.line, e.purpose);
+    return out + "\n";
+  }
 };
 
-const std::vector<Examples>& all_examples() {
-  static const std::vector<Examples> all{
+}  // namespace
+
+std::vector<Example> examples_of(std::string_view command) {
+  static const std::map<std::string_view, std::vector<Example>> all{
       {"",
        {{"limitcheck check cage.obj", "what is wrong with a mesh"},
         {"limitcheck audit cage.obj", "all tessellators, on it"},
@@ -61,27 +70,8 @@ const std::vector<Examples>& all_examples() {
         {"limitcheck tessellate quad-cube --strategy random --colour depth -o cube.ply",
          "depths as colours"}}},
   };
-  return all;
-}
-
-class WithExamples : public CLI::Formatter {
- public:
-  std::string make_description(const CLI::App* app) const override {
-    std::string out = app->get_description() + "\n";
-    const std::vector<Example> examples = examples_of(app->get_parent() == nullptr ? "" : app->get_name());
-    if (examples.empty()) return out;
-    out += "\nExamples:\n";
-    for (const Example& e : examples) out += fmt::format("  {}\n      {}\n", e.line, e.purpose);
-    return out + "\n";
-  }
-};
-
-}  // namespace
-
-std::vector<Example> examples_of(std::string_view command) {
-  for (const Examples& e : all_examples())
-    if (e.command == command) return e.lines;
-  return {};
+  const auto found = all.find(command);
+  return found == all.end() ? std::vector<Example>{} : found->second;
 }
 
 void show_examples(CLI::App& app) {
@@ -90,6 +80,11 @@ void show_examples(CLI::App& app) {
 
 void group(CLI::App& command, const char* title, std::initializer_list<const char*> options) {
   for (const char* option : options) command.get_option(option)->group(title);
+}
+
+void refuse(const CLI::App& command, std::initializer_list<const char*> options, const std::string& why) {
+  for (const char* option : options)
+    if (command.count(option) > 0) throw data::ArgumentError(fmt::format("{} {}", option, why));
 }
 
 }  // namespace limitcheck::cli

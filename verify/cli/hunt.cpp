@@ -1,60 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "verify/hunt/hunt.h"
 
-#include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <charconv>
-#include <chrono>
-#include <filesystem>
-#include <memory>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "verify/checks/check_oracle.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/mesh_options.h"
-#include "verify/cli/screen.h"
-#include "verify/cli/subject_loader.h"
-#include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/json.h"
-#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 struct HuntArguments {
-  std::string subject, time, shard = "1/1", json, junit, baseline;
+  std::string subject, shard = "1/1", json, junit, baseline;
   std::string witnesses = "limitcheck-hunt";
   std::vector<std::string> options, vary;
   std::optional<data::Scheme> scheme;
   std::uint64_t cases = 1000, seed = 1;
   int jobs = 0, attempts = verify::HuntOptions().attempts;
+  double seconds = 0;  // in place of cases; 0: cases
   bool in_process = false, resume = false;
   SubjectArguments from;
 };
 constexpr std::uint64_t kMostCases = 1'000'000'000;
-
-// "90", "90s", "15m", "1h"; in seconds.
-double seconds_of(const std::string& text) {
-  double seconds = 0;
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, seconds);
-  const std::string unit(at, end);
-  const double factor = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
-  if (error != std::errc() || !(seconds * factor > 0 && seconds < 1e9))
-    throw data::ArgumentError(
-        fmt::format("--time {}: a number of seconds, or of minutes or hours as 15m, 1h", text));
-  return seconds * factor;
-}
 
 std::vector<data::Scheme> schemes_asked(const HuntArguments& a) {
   if (a.scheme) return {*a.scheme};
@@ -78,7 +52,7 @@ struct Hunted {
   verify::HuntReport report(const HuntArguments& a) const {
     verify::HuntReport report;
     report.version = LIMITCHECK_VERSION, report.subject = subject.label();
-    report.seed = a.seed, report.asked = a.time.empty() ? a.cases : 0;
+    report.seed = a.seed, report.asked = a.seconds == 0 ? a.cases : 0;
     report.varied = a.vary;
     for (const verify::Does& d : does) report.schemes.emplace_back(data::name_of(d.scheme));
     return report;
@@ -118,13 +92,13 @@ verify::HuntReport part_of(verify::HuntReport report, const verify::Journal& jou
 
 // Goes on where the journal ends, until all cases of its part are looked at or the time is over.
 void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& counters,
-               Clock::time_point end) {
+               const verify::Clock& clock) {
   const Hunted hunted(a);
   verify::HuntReport report = part_of(hunted.report(a), journal);
   verify::Hunt hunt(hunted.subject, hunted.plan(a.seed), {a.attempts, a.witnesses});
   std::uint64_t shown = report.findings.size();
   counters.cases += report.cases, counters.findings += shown;
-  for (std::uint64_t n = 0; a.time.empty() ? n < a.cases : Clock::now() < end; ++n) {
+  for (std::uint64_t n = 0; a.seconds == 0 ? n < a.cases : clock.seconds() < a.seconds; ++n) {
     if (!journal.plan().has(n)) {
       n += verify::HuntPlan::kBlock - 1;
       continue;
@@ -137,11 +111,11 @@ void hunt_part(const HuntArguments& a, verify::Journal& journal, JobCounters& co
     counters.findings += report.findings.size() - shown;
     shown = report.findings.size();
   }
-  const auto start = Clock::now();
+  const verify::Clock shrinking;
   hunt.shrink_findings(report);
   const std::uint64_t last = small_unit(report, journal.plan());
   nlohmann::json small = report.small_meshes();
-  small["seconds"] = std::chrono::duration<double>(Clock::now() - start).count();
+  small["seconds"] = shrinking.seconds();
   if (verify::interrupted() == 0 && journal.recall(last) == nullptr) journal.keep(last, std::move(small));
 }
 
@@ -177,12 +151,6 @@ class PartFiles {
   std::filesystem::path folder_;
 };
 
-verify::HuntReport baseline(const std::string& file) try {
-  return verify::read_hunt_report(data::io::whole_content(file));
-} catch (const data::ArgumentError& error) {
-  throw data::ArgumentError(fmt::format("--baseline {}: {}", file, error.what()));
-}
-
 int hunt(HuntArguments a) {
   std::vector<std::string> meshes;
   take_program(a.from, a.subject, meshes);
@@ -194,9 +162,8 @@ int hunt(HuntArguments a) {
   if (a.resume && (a.json.empty() || a.json == "-"))
     throw data::ArgumentError("--resume needs --json FILE: what was done is beside it, in FILE.part1 ..");
   const verify::Shard shard = verify::parse_shard(a.shard);
-  const double seconds = a.time.empty() ? 0 : seconds_of(a.time);
   std::optional<verify::HuntReport> earlier;
-  if (!a.baseline.empty()) earlier = baseline(a.baseline);
+  if (!a.baseline.empty()) earlier = read_file(a.baseline, verify::read_hunt_report);
   const verify::HuntReport* const before = earlier ? &*earlier : nullptr;
   if (a.jobs <= 0) a.jobs = tbb::info::default_concurrency();
   a.from.isolate = !a.in_process;
@@ -213,9 +180,7 @@ int hunt(HuntArguments a) {
   }();
 
   const verify::InterruptGuard guard;
-  const auto start = Clock::now();
-  const auto end =
-      start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const verify::Clock clock;
   PartFiles files(a, header, shard);
   Progress progress;
   const int code = run_jobs(
@@ -223,15 +188,15 @@ int hunt(HuntArguments a) {
       [&](int job, JobCounters& counters) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
         const SubjectOutput silent;
-        hunt_part(a, *files.journals[static_cast<std::size_t>(job)], counters, end);
+        hunt_part(a, *files.journals[static_cast<std::size_t>(job)], counters, clock);
         return kHeld;
       },
       [&](const JobCounters& c) {
-        const double since = std::chrono::duration<double>(Clock::now() - start).count();
+        const double since = clock.seconds();
         const auto done =
-            static_cast<std::size_t>(a.time.empty() ? c.cases.load() : static_cast<std::uint64_t>(since));
-        const auto total = static_cast<std::size_t>(a.time.empty() ? a.cases / shard.count
-                                                                   : static_cast<std::uint64_t>(seconds));
+            static_cast<std::size_t>(a.seconds == 0 ? c.cases.load() : static_cast<std::uint64_t>(since));
+        const auto total = static_cast<std::size_t>(a.seconds == 0 ? a.cases / shard.count
+                                                                   : static_cast<std::uint64_t>(a.seconds));
         progress.show(done, total,
                       fmt::format("{} cases, {:.1f} a second, {} findings", c.cases.load(),
                                   static_cast<double>(c.cases) / std::max(since, 1e-3), c.findings.load()));
@@ -277,7 +242,11 @@ void add_hunt(CLI::App& app, int& exit_code) {
                       "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND");
   CLI::Option* cases =
       add_number<std::uint64_t>(*command, "--cases", a->cases, 1, kMostCases, "How many cases");
-  command->add_option("--time", a->time, "How long, in place of --cases: 90s, 15m, 1h")->excludes(cases);
+  const std::map<std::string, double> units{{"s", 1}, {"m", 60}, {"h", 3600}};
+  add_value(*command, "--time", a->seconds, "TEXT", "How long, in place of --cases: 90s, 15m, 1h")
+      ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE).description(""))
+      ->check(CLI::Range(1e-9, 1e9).description(""))
+      ->excludes(cases);
   command->add_option("--seed", a->seed, "Another seed makes other cases; the same one the same")
       ->check(kSeed)
       ->capture_default_str();

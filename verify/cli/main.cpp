@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <memory>
-#include <string>
 
 #include "verify/cli/commands.h"
 #include "verify/cli/units.h"

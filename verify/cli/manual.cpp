@@ -6,8 +6,6 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "data/error.h"
 #include "verify/cli/commands.h"

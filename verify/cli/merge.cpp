@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 // limitcheck merge: the parts that --shard has made, as one process would have reported them.
-#include <fmt/core.h>
 
 #include <algorithm>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/audit.h"
 #include "verify/cli/commands.h"
-#include "verify/cli/units.h"
 #include "verify/hunt/hunt_report.h"
-#include "verify/report/coverage.h"
-#include "verify/report/forms.h"
 #include "verify/report/json.h"
-#include "verify/shard/shard.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -30,32 +19,11 @@ struct MergeArguments {
   ReportOptions options;  // --junit, --baseline, and of an audit --require and --waivers
 };
 
-// read(text) of a file; what is wrong with it is said with its name.
-template <class Read>
-auto read_file(const std::string& file, const Read& read) try {
-  return read(data::io::whole_content(file));
-} catch (const data::ArgumentError& error) {
-  throw data::ArgumentError(fmt::format("{}: {}", file, error.what()));
-}
-
 std::string program_of(const std::string& text) {
   const nlohmann::json json = data::parse_untrusted(text);
   if (!json.is_object() || !json.contains("program") || !json["program"].is_string())
     throw data::ArgumentError("this is no report of limitcheck");
   return json["program"].get<std::string>();
-}
-
-void refuse(const MergeArguments& a, const std::string& program, bool of_hunt) {
-  for (const auto& [option, given] :
-       {std::pair{"--require", !a.options.required.empty()},
-        std::pair{"--require-coverage", a.options.require_coverage},
-        std::pair{"--all-rows", a.options.all_rows}, std::pair{"--sarif", !a.options.sarif.empty()},
-        std::pair{"--markdown", !a.options.markdown.empty()},
-        std::pair{"--waivers", !a.options.waivers.empty()},
-        std::pair{"--save-baseline", !a.options.save_baseline.empty()},
-        std::pair{"--baseline", !a.options.baseline.empty() && !of_hunt},
-        std::pair{"--junit", !a.options.junit.empty() && !of_hunt}})
-    if (given) throw data::ArgumentError(fmt::format("{} is not for parts of {}", option, program));
 }
 
 int merge_audit(const verify::PartReport& whole, const MergeArguments& a) {
@@ -162,7 +130,7 @@ int verify_report(const std::string& file) {
   return kHeld;
 }
 
-int merge(const MergeArguments& a) {
+int merge(const CLI::App& command, const MergeArguments& a) {
   if (!a.verify.empty()) {
     if (!a.parts.empty() || !a.output.empty())
       throw data::ArgumentError("--verify takes a report, and no parts");
@@ -172,15 +140,18 @@ int merge(const MergeArguments& a) {
   if (a.output.empty()) throw CLI::RequiredError("--output");
   refuse_one_file_for_two({{"-o", a.output}, {"--baseline", a.options.baseline}}, a.options);
   const std::string program = read_file(a.parts.at(0), program_of);
-  if (program == "limitcheck hunt") {
-    refuse(a, program, true);
-    return merge_hunt(a);
-  }
+  const std::string why = "is not for parts of " + program;
+  if (program != "limitcheck audit")
+    refuse(command,
+           {"--require", "--require-coverage", "--all-rows", "--sarif", "--markdown", "--waivers",
+            "--save-baseline"},
+           why);
+  if (program == "limitcheck hunt") return merge_hunt(a);
   std::vector<verify::PartReport> parts;
   for (const std::string& file : a.parts) parts.push_back(read_file(file, verify::read_part));
   const verify::PartReport whole = verify::joined(parts);
   if (program == "limitcheck audit") return merge_audit(whole, a);
-  refuse(a, program, false);
+  refuse(command, {"--baseline", "--junit"}, why);
   if (program == "limitcheck mutants") return report_mutants(whole, a.output);
   if (program == "limitcheck prove") {
     std::vector<std::string> words{"prove", "--json", a.output, "--parts"};
@@ -205,7 +176,7 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->footer(
       "Exit codes: as of the command whose parts they are; 2 if a part is missing, there twice, incomplete "
       "or of another plan.");
-  command->callback([a, &exit_code] { exit_code = merge(*a); });
+  command->callback([=, &exit_code] { exit_code = merge(*command, *a); });
 }
 
 }  // namespace limitcheck::cli

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // limitcheck generate, check and repair: control meshes by name, what is wrong with one, and one that can be audited
 // made of one that cannot.
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "data/generators/named_mesh.h"
 #include "data/io/gltf.h"
@@ -116,8 +113,7 @@ void print_summary(const data::io::PolygonSoup& soup, const data::MeshSummary& s
            ? fmt::format("single precision rounds these coordinates to steps of {:.2g}, far below every edge",
                          s.float_step)
            : fmt::format("single precision rounds these coordinates to steps of {:.2g}: {} edges are shorter "
-                         "than 16, and "
-                         "normals beside them cannot be right in single precision",
+                         "than 16, and normals beside them cannot be right in single precision",
                          s.float_step, s.edges_lost_in_float));
 }
 
@@ -362,10 +358,10 @@ void add_repair(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", a->output, "The repaired mesh: .obj, .off or .ply")
       ->required()
       ->type_name("FILE");
-  auto* weld = command->add_option("--weld", a->weld,
-                                   "Merge vertices at exactly the same place, which closes seams; with EPS, "
-                                   "0.01 or less, also border vertices that lie no more than EPS diagonals "
-                                   "of the bounding box apart");
+  auto* weld = command->add_option(
+      "--weld", a->weld,
+      "Merge vertices at exactly the same place, which closes seams; with EPS, 0.01 or less, also border "
+      "vertices that lie no more than EPS diagonals of the bounding box apart");
   weld->expected(0, 1)->type_name("[EPS]");
   add_mesh_options(*command, a->mesh);
   command->footer(

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/cli/mesh_options.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <utility>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
@@ -97,8 +94,7 @@ OpenedMesh open_generated_mesh(const std::string& specification, const data::Rea
 
 std::string scheme_line(const std::vector<MeshScheme>& meshes, const data::ReadOptions& options) {
   const auto count = [&](data::Scheme scheme) {
-    return std::count_if(meshes.begin(), meshes.end(),
-                         [&](const MeshScheme& m) { return m.scheme == scheme; });
+    return std::ranges::count_if(meshes, [&](const MeshScheme& m) { return m.scheme == scheme; });
   };
   std::int64_t cut = 0;
   for (const MeshScheme& m : meshes) cut += m.cut;
@@ -107,14 +103,13 @@ std::string scheme_line(const std::vector<MeshScheme>& meshes, const data::ReadO
     return fmt::format("scheme: loop ({} of {} meshes, whose faces are all triangles), catmull-clark ({})",
                        loop, meshes.size(), catmull_clark);
   const std::string name(name_of(loop > 0 ? data::Scheme::kLoop : data::Scheme::kCatmullClark));
-  const std::string how =
-      cut > 0 ? fmt::format("--triangulate {} cut {} face{} into triangles", word(options.polygons), cut,
-                            cut == 1 ? "" : "s")
-      : options.scheme ? "--scheme"
-      : std::any_of(meshes.begin(), meshes.end(), [](const MeshScheme& m) { return m.declared; })
-          ? "as the file says"
-      : loop > 0 ? "all faces are triangles"
-                 : "not all faces are triangles";
+  const std::string how = cut > 0          ? fmt::format("--triangulate {} cut {} face{} into triangles",
+                                                         word(options.polygons), cut, cut == 1 ? "" : "s")
+                          : options.scheme ? "--scheme"
+                          : std::ranges::any_of(meshes, [](const MeshScheme& m) { return m.declared; })
+                              ? "as the file says"
+                          : loop > 0 ? "all faces are triangles"
+                                     : "not all faces are triangles";
   return fmt::format("scheme: {} ({})", name, how);
 }
 

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "verify/mutants/mutants.h"
 
-#include <fmt/core.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "verify/cli/commands.h"
-#include "verify/cli/screen.h"
 #include "verify/cli/units.h"
 #include "verify/interrupt/interrupt.h"
 #include "verify/report/columns.h"
@@ -76,8 +73,7 @@ std::string to_table(const KillTable& table) {
     rows.back().cells.push_back({fmt::format("{}", fmt::join(others, ", "))});
   }
   std::string out = verify::table(columns, rows, screen, 0);
-  const auto killed =
-      std::count_if(table.kills.begin(), table.kills.end(), [](const Kill& k) { return k.by_its_check(); });
+  const auto killed = std::ranges::count_if(table.kills, [](const Kill& k) { return k.by_its_check(); });
   out += fmt::format("\n{} mutants, {} killed by the check meant for them; {} checks kill nothing{}\n",
                      table.kills.size(), killed, table.idle.size(),
                      table.idle.empty() ? "" : fmt::format(": {}", fmt::join(table.idle, ", ")));
@@ -87,8 +83,7 @@ std::string to_table(const KillTable& table) {
     const int killed_bare = count["killed"], unseen = count["NOT SEEN"], unasked = count["-"];
     out += fmt::format(
         "Without provenance {} are killed by the check meant for them, {} by another (named), {} are not "
-        "seen; {} "
-        "need unequal depths\n",
+        "seen; {} need unequal depths\n",
         killed_bare, static_cast<int>(table.kills.size()) - killed_bare - unseen - unasked, unseen, unasked);
   }
   for (const std::string& red : table.red_on_correct) out += fmt::format("RED ON A RIGHT SUBJECT: {}\n", red);
@@ -122,10 +117,9 @@ void add_mutants(CLI::App& app, int& exit_code) {
       app.add_subcommand("mutants", "Let the audit loose on faulty tessellators: what each check catches");
   add_json_option(*command, *a);
   add_shard_options(*command, *a, "mutants, and of the meshes for right subjects");
-  command->add_flag(
-      "--without-provenance", a->without_provenance,
-      "Audit each mutant a second time as a tessellator that does not say where its points lie, and "
-      "show both side by side");
+  command->add_flag("--without-provenance", a->without_provenance,
+                    "Audit each mutant a second time as a tessellator that does not say where its points "
+                    "lie, and show both side by side");
   command->footer(
       "Exit codes: 0 every mutant is killed by the check meant for it, every check kills one, and correct "
       "subjects have no finding (of a shard: it is done, and limitcheck merge will say); 1 otherwise; 130 "

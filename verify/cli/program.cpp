@@ -12,7 +12,6 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string_view>
 
 #include <commit.h>  // made by the build (commit.cmake)
 #include "data/error.h"
@@ -96,8 +95,7 @@ std::string what_was_meant(const std::string& word) {
 
 bool is_command(const CLI::App& app, const std::string& word) {
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  return std::any_of(commands.begin(), commands.end(),
-                     [&](const CLI::App* command) { return command->check_name(word); });
+  return std::ranges::any_of(commands, [&](const CLI::App* command) { return command->check_name(word); });
 }
 
 constexpr const char* kTags =
@@ -132,32 +130,35 @@ int parse(CLI::App& app, int argc, char** argv, const int& exit_code) {
     words.erase(words.begin() + 1);
     words.push_back("--help");
   }
-  try {
-    app.parse(static_cast<int>(words.size()), words.data());
-  } catch (const CLI::RequiredError& error) {
-    if (argc < 2) return exit_with(app, CLI::CallForHelp()), kBadInput;
-    if (app.get_subcommands().empty() && argv[1][0] != '-') {
-      say(stderr, "limitcheck: there is no command '{}'\n{}", argv[1], what_was_meant(argv[1]));
-      return kBadInput;
+  return guarded([&] {
+    try {
+      app.parse(static_cast<int>(words.size()), words.data());
+    } catch (const CLI::RequiredError& error) {
+      if (argc < 2) return exit_with(app, CLI::CallForHelp()), int{kBadInput};
+      if (app.get_subcommands().empty() && argv[1][0] != '-')
+        say(stderr, "limitcheck: there is no command '{}'\n{}", argv[1], what_was_meant(argv[1]));
+      else
+        exit_with(app, error);
+      return int{kBadInput};
+    } catch (const CLI::ParseError& error) {
+      return int{exit_with(app, error) == 0 ? kHeld : kBadInput};
     }
-    exit_with(app, error);
-    return kBadInput;
-  } catch (const CLI::ParseError& error) {
-    return exit_with(app, error) == 0 ? kHeld : kBadInput;
-  } catch (const std::bad_alloc&) {
-    std::fputs("limitcheck: out of memory\n", stderr);
-    return kBadInput;
-  } catch (const verify::HostLacks& lack) {
-    complain(lack.text());
-    return kBadInput;
-  } catch (const std::exception& error) {
-    complain(error.what());
-    return kBadInput;
-  }
-  return exit_code;
+    return exit_code;
+  });
 }
 
 }  // namespace
+
+int guarded(const std::function<int()>& work) try { return work(); } catch (const std::bad_alloc&) {
+  std::fputs("limitcheck: out of memory\n", stderr);
+  return kBadInput;
+} catch (const verify::HostLacks& lack) {
+  complain(lack.text());
+  return kBadInput;
+} catch (const std::exception& error) {
+  complain(error.what());
+  return kBadInput;
+}
 
 void say_text(std::FILE* stream, const std::string& text) {
   const std::string shown = verify::visible_text(text);

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // limitcheck-prove, a program of its own that limitcheck prove hands over to: the kernels are the right linear maps, for every geometry of a topology.
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <ratio>
-#include <stdexcept>
-#include <utility>
-#include <vector>
+#include <set>
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "data/numeral.h"
 #include "data/scheme.h"
 #include "data/untrusted_json.h"
 #include "verify/cli/commands.h"
@@ -24,49 +20,34 @@
 namespace limitcheck::cli {
 namespace {
 
-int number(const std::string& text) {
-  std::size_t end = 0;
-  int value = 0;
-  try {
-    value = std::stoi(text, &end);
-  } catch (const std::exception&) {
-    end = 0;
-  }
-  if (end == 0 || end != text.size() || value < 3 || value > 20)
-    throw data::ArgumentError(fmt::format("--valences: '{}' is not a valence from 3 to 20", text));
-  return value;
-}
-
-/// "3:12" or "3,4,6"
+/// "3:12", "3,4,6" or both.
 std::vector<int> valences(const std::string& text) {
-  std::vector<int> result;
-  if (const auto colon = text.find(':'); colon != std::string::npos) {
-    for (int n = number(text.substr(0, colon)); n <= number(text.substr(colon + 1)); ++n) result.push_back(n);
-    if (result.empty()) throw data::ArgumentError("--valences: " + text + " holds none");
-    return result;
+  std::set<int> all;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    int first = 0, last = 0;
+    const int numbers = data::read_numbers(word, ':', first, last);
+    if (numbers == 1) last = first;
+    if (numbers == 0 || first < 3 || first > last || last > 20)
+      throw data::ArgumentError(
+          fmt::format("--valences: '{}' is no valence from 3 to 20, nor FROM:TO", word));
+    while (first <= last) all.insert(first++);
   }
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    result.push_back(number(text.substr(from, comma - from)));
-    from = comma + 1;
-  }
-  std::ranges::sort(result);
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+  return {all.begin(), all.end()};
 }
 
 verify::ProofRequest as_request(const ProveRequest& request) {
-  verify::ProofRequest what;
+  using verify::ProofSize;
   const bool quads = request.scheme == "catmull-clark";
-  if (quads) what.scheme = data::Scheme::kCatmullClark;
-  what.valences = valences(!request.valences.empty() ? request.valences : quads ? "3:8" : "3:12");
-  what.depth = request.depth;
-  what.sliding_window = request.kernel != "row-stream";
-  what.row_stream = request.kernel != "sliding-window";
-  what.size = request.set == "full"     ? verify::ProofSize::kFull
-              : request.set == "sample" ? verify::ProofSize::kSample
-                                        : verify::ProofSize::kStandard;
-  return what;
+  return {quads ? data::Scheme::kCatmullClark : data::Scheme::kLoop,
+          valences(!request.valences.empty() ? request.valences
+                   : quads                   ? "3:8"
+                                             : "3:12"),
+          request.depth,
+          request.kernel != "row-stream",
+          request.kernel != "sliding-window",
+          request.set == "full"     ? ProofSize::kFull
+          : request.set == "sample" ? ProofSize::kSample
+                                    : ProofSize::kStandard};
 }
 
 // Each task of the set is a unit, and behind them the stock shapes are one.

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "verify/cli/subject_loader.h"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
-#include <string_view>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
@@ -33,9 +30,8 @@ bool is_file(const std::string& name) {
 bool is_mesh_name(const std::string& text) {
   const std::string word = text.substr(0, text.find(':'));
   const auto all = data::named_meshes();
-  return std::any_of(all.begin(), all.end(), [&](const data::NamedMesh& m) {
-    return m.name.substr(0, m.name.find_first_of(":[")) == word;
-  });
+  return std::ranges::any_of(
+      all, [&](const data::NamedMesh& m) { return m.name.substr(0, m.name.find_first_of(":[")) == word; });
 }
 
 bool names_a_library(const std::string& name) {
@@ -81,10 +77,9 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
   add_value(command, "--program", a.program, "COMMAND",
             "Audit the program that COMMAND starts (by /bin/sh) instead of SUBJECT; it speaks the protocol "
             "of verify/host/isolation/PROTOCOL.md");
-  add_value(
-      command, "--shader", a.shader, "FILE",
-      "Audit this GLSL file instead of SUBJECT: a function of a place, compute passes, or a tessellation "
-      "shader, as verify/subject/SHADERS.md has them")
+  add_value(command, "--shader", a.shader, "FILE",
+            "Audit this GLSL file instead of SUBJECT: a function of a place, compute passes, or a "
+            "tessellation shader, as verify/subject/SHADERS.md has them")
       ->excludes("--program");
   command.add_flag("--isolate", a.isolate, "Run built-in subjects in a process of their own too");
   add_number(command, "--timeout", a.limits.seconds, 0.001, 86400.0,
@@ -176,16 +171,13 @@ verify::AuditSubject SubjectLoader::open(const std::string& text, const std::vec
 }
 
 verify::AuditSubject SubjectLoader::built_in(const lc_subject& subject) {
-  if (!arguments_.isolate) return {&subject, ""};
-  return {remote(Kind::kBuiltIn, subject.name), "", remote(Kind::kBuiltIn, subject.name, true)};
+  return arguments_.isolate ? wrapped(Kind::kBuiltIn, subject.name) : verify::AuditSubject{&subject, ""};
 }
 
 verify::AuditSubject SubjectLoader::open(const std::string& text) {
   if (text.starts_with("program:")) return {remote(Kind::kProgram, text.substr(8)), ""};
-  if (text.starts_with("shader:") || (text.ends_with(".glsl") && is_file(text))) {
-    const std::string file = text.starts_with("shader:") ? text.substr(7) : text;
-    return {remote(Kind::kShader, file), "", remote(Kind::kShader, file, true)};
-  }
+  if (text.starts_with("shader:")) return wrapped(Kind::kShader, text.substr(7));
+  if (text.ends_with(".glsl") && is_file(text)) return wrapped(Kind::kShader, text);
 
   // A file name may contain a colon: the longest that exists wins.
   std::size_t colon = is_file(text) ? std::string::npos : text.find(':');
@@ -200,7 +192,7 @@ verify::AuditSubject SubjectLoader::open(const std::string& text) {
   if (is_file(name) && !names_a_library(name) && ::access(name.c_str(), X_OK) == 0)
     return {remote(Kind::kProgram, as_command(name)), options};
   if (is_file(name) || name.find('/') != std::string::npos || names_a_library(name))
-    return {remote(Kind::kLibrary, name), options, remote(Kind::kLibrary, name, true)};
+    return wrapped(Kind::kLibrary, name, options);
 
   for (const verify::MissingSubject& missing : verify::missing_subjects())
     if (missing.name == name) throw data::ArgumentError(missing.why);

@@ -54,6 +54,11 @@ class SubjectLoader {
 
  private:
   const lc_subject* remote(verify::RemoteSubject::Kind kind, const std::string& what, bool in_turns = false);
+  // The subject with its wrapper, each in a process of its own.
+  verify::AuditSubject wrapped(verify::RemoteSubject::Kind kind, const std::string& what,
+                               const std::string& options = "") {
+    return {remote(kind, what), options, remote(kind, what, true)};
+  }
 
   SubjectArguments arguments_;
   std::vector<std::unique_ptr<verify::RemoteSubject>> remote_;

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
 // limitcheck tessellate: the engine of fast/ as a program, from a control mesh to a file of triangles with
 // normals.
-#include <fmt/core.h>
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "data/error.h"
+#include "data/numeral.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/cli/commands.h"
@@ -45,35 +39,23 @@ const Words<std::optional<fast::Strategy>> kStrategies{{"uniform", fast::Strateg
                                                        {"combined", fast::Strategy::kCombined}};
 const Words<bool> kEngines{{"row-stream", false}, {"sliding-window", true}};
 
-// The numbers of "a,b,c"; throws CLI::ValidationError unless there are `count` of them and nothing else.
-std::vector<double> numbers(const std::string& text, char separator, std::size_t count, const char* what) {
-  const std::vector<std::string> words = CLI::detail::split(text, separator);
-  std::vector<double> result(words.size());
-  bool read = words.size() == count && !text.ends_with(separator);
-  for (std::size_t k = 0; read && k < count; ++k)
-    read = CLI::detail::lexical_cast(words[k], result[k]) && std::isfinite(result[k]);
-  if (!read) throw CLI::ValidationError(what, fmt::format("cannot read '{}'", text));
-  return result;
-}
-
 fast::Camera camera(const TessellateArguments& a) {
+  const auto refuse = [](const char* option, const std::string& text) {
+    throw CLI::ValidationError(option, fmt::format("cannot read '{}'", text));
+  };
   fast::Camera result = a.view;
-  if (!a.camera.empty()) {
-    const std::vector<fast::Point3*> points{&result.eye, &result.target, &result.up};
-    const std::vector<std::string> given = CLI::detail::split(a.camera, ':');
-    if (given.size() > points.size() || a.camera.ends_with(':'))
-      throw CLI::ValidationError("--camera", fmt::format("cannot read '{}'", a.camera));
-    for (std::size_t k = 0; k < given.size(); ++k) {
-      const auto p = numbers(given[k], ',', 3, "--camera");
-      *points[k] = {p[0], p[1], p[2]};
-    }
+  fast::Point3* const points[] = {&result.eye, &result.target, &result.up};
+  const std::vector<std::string> given = CLI::detail::split(a.camera, ':');
+  if (given.size() > std::size(points) || a.camera.ends_with(':')) refuse("--camera", a.camera);
+  for (std::size_t k = 0; !a.camera.empty() && k < given.size(); ++k) {
+    const std::vector<std::string> numbers = CLI::detail::split(given[k], ',');
+    if (numbers.size() != 3 || given[k].ends_with(',')) refuse("--camera", given[k]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!CLI::detail::lexical_cast(numbers[axis], (*points[k])[axis])) refuse("--camera", given[k]);
   }
-  const auto size = numbers(a.viewport, 'x', 2, "--viewport");
-  for (const double s : size)
-    if (s != std::floor(s) || std::abs(s) > 1e6)
-      throw CLI::ValidationError("--viewport", "must be whole pixels");
-  result.width = static_cast<int>(size[0]);
-  result.height = static_cast<int>(size[1]);
+  if (data::read_numbers(a.viewport, 'x', result.width, result.height) != 2 ||
+      std::max(result.width, result.height) > 1'000'000)
+    refuse("--viewport", a.viewport);
   return result;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/cli/units.h"
 
-#include <fmt/core.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -9,25 +8,18 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
-#include <exception>
-#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
-#include <utility>
-#include <vector>
 
-#include "data/error.h"
-#include "data/io/whole_content.h"
 #include "verify/cli/commands.h"
 #include "verify/interrupt/interrupt.h"
+#include "verify/proof/proof_set.h"
 #include "verify/report/json.h"
-#include "verify/subject/subject_error.h"
+#include "verify/row/statistics.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -40,29 +32,19 @@ bool is_file(const std::string& json) {
   return !json.empty() && json != "-" && (type == fs::file_type::not_found || type == fs::file_type::regular);
 }
 
-struct Unmap {
-  void operator()(JobCounters* counters) const { munmap(counters, sizeof *counters); }
-};
-
-std::unique_ptr<JobCounters, Unmap> shared_counters() {
+// As long as this process lives.
+JobCounters& shared_counters() {
   void* memory =
       mmap(nullptr, sizeof(JobCounters), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::bad_alloc();
-  return std::unique_ptr<JobCounters, Unmap>(new (memory) JobCounters{});
+  return *new (memory) JobCounters{};
 }
 
 // In the new process.
 [[noreturn]] void run_job(int job, JobCounters& counters, const std::function<int(int, JobCounters&)>& work) {
   setpgid(0, 0);  // Ctrl-C comes to the first process, which hands it on
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  int code = kBadInput;
-  try {
-    code = work(job, counters);
-  } catch (const verify::HostLacks& lack) {
-    say(stderr, "limitcheck: {}\n", lack.text());
-  } catch (const std::exception& error) {
-    say(stderr, "limitcheck: {}\n", error.what());
-  }
+  const int code = guarded([&] { return work(job, counters); });
   std::fflush(nullptr);
   _exit(code);
 }
@@ -132,7 +114,7 @@ std::string attested(std::string report, const nlohmann::json& plan) {
 int run_units(const ShardArguments& a, verify::Plan plan,
               const std::function<void(verify::Journal&, Progress&)>& work,
               const std::function<int(const verify::PartReport&)>& report) {
-  const auto start = std::chrono::steady_clock::now();
+  const verify::Clock clock;
   const auto journal = open_journal(a, std::move(plan));
   const verify::InterruptGuard guard;
   Progress progress;
@@ -140,7 +122,7 @@ int run_units(const ShardArguments& a, verify::Plan plan,
   progress.clear();
   const int signal = verify::interrupted();
   verify::PartReport done;
-  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  done.seconds = clock.seconds();
   if (signal != 0) done.incomplete = fmt::format("interrupted by {}", verify::signal_name(signal));
   if (!a.of().is_whole()) write_part(a, *journal, done);
   done.plan = journal->plan(), done.results = journal->results();
@@ -151,13 +133,13 @@ int run_units(const ShardArguments& a, verify::Plan plan,
 
 int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show) {
-  const auto counters = shared_counters();
+  JobCounters& counters = shared_counters();
   std::fflush(nullptr);
   std::vector<pid_t> running;
   int code = 0;
   for (int job = 0; job < jobs; ++job) {
     const pid_t pid = fork();
-    if (pid == 0) run_job(job, *counters, work);
+    if (pid == 0) run_job(job, counters, work);
     if (pid < 0) {
       say(stderr, "limitcheck: a process cannot be started: {}\n", std::strerror(errno));
       code = kBadInput;
@@ -177,10 +159,52 @@ int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
       code = std::max(code, WIFEXITED(status) ? WEXITSTATUS(status) : kSignalled + WTERMSIG(status));
       return true;
     });
-    show(*counters);
+    show(counters);
     usleep(50'000);
   }
   return code;
+}
+
+void add_prove(CLI::App& app, const std::function<void(const ProveRequest&)>& prove) {
+  CLI::App* command = app.add_subcommand(
+      "prove",
+      "Prove that the kernels compute the exact limit surface, whatever the geometry, topology by topology");
+  auto request = std::make_shared<ProveRequest>();
+  request->depth = verify::ProofRequest().depth;
+  add_choice(*command, "--scheme", request->scheme, {"loop", "catmull-clark"}, "The subdivision scheme");
+  command->add_option("--valences", request->valences,
+                      "Interior valences: of the triples 3:12 or a list 3,4,6; 3:8 of a quad's four corners");
+  add_number(*command, "--depth", request->depth, 0, 8, "Deepest subdivision");
+  add_choice(*command, "--kernel", request->kernel, {"sliding-window", "row-stream", "all"}, "The kernel");
+  add_choice(*command, "--set", request->set, {"sample", "standard", "full"},
+             "How much: standard takes three minutes on two cores, full some twenty; sample, every tenth "
+             "topology of the standard set, takes ten seconds");
+  command->add_flag("--each", request->each, "A line for every topology, not for every group of them");
+  add_json_option(*command, request->shard);
+  add_shard_options(*command, request->shard, "topologies");
+  command->footer(
+      "Both sets hold every triple of valences, valences 20, 50 and 100, boundaries, the face alone and the\n"
+      "pairs of bumpy spheres, on every kernel. Maps (m) and float bounds (b) to depth, standard | full:\n"
+      "  triples    every triple, each corner facing the diagonal   m 4, every triple once 6, b 4 | m 6, b "
+      "4\n"
+      "             every triple once                               b - | 6\n"
+      "  high       valences 20, 50, 100                            m 4, b 4 | m 6, b 6\n"
+      "  boundary   around pairs of four kinds                      m 3, b 3 | m 6, b 4; the regular pair b "
+      "6\n"
+      "  alone      the face without neighbours                     m 4, b 4 | m 6, b 6\n"
+      "  spheres    all pairs of bumpy:200 | 200 800 2000 4000      m 3, b 3 | m 6, b 4\n"
+      "Maps again to 45 digits, depth 1-2 | 3, and exactly for valences 3, 4, 6, depth 2 | 5.\n"
+      "Of Catmull-Clark's scheme, maps in residues (r), rationals (e) and to 45 digits (d):\n"
+      "  quadruples every four valences in every order              r 2, e 1, d 0, b 2 | r 4, e 3, d 2, b 4\n"
+      "  deep       the regular quad and others                     r 6, e 3, d 2, b 5 | r 7, e 5, d 4, b 6\n"
+      "  high       valences 20 and 50 at every corner              r 2, e 1, d 0, b 2 | r 5, e 2, d 1, b 4\n"
+      "  boundary   boundary edges and vertices                     r 3, e 1, d 0, b 2 | r 5, e 3, d 2, b 4\n"
+      "  cuts       creases and corners                             e 2, d 0, b 2      | e 3, d 2, b 4\n"
+      "  darts      ends of creases                                 d 1, b 2           | d 3, b 4\n"
+      "  semi-sharp edges and vertices, sliding window              e 1, b 2           | e 3, b 4\n"
+      "Ctrl-C ends with the table of the proofs so far: exit code 130, or 1 if one of them failed.");
+  command->add_option("--parts", request->parts, "Report these parts of --shard")->group("");
+  command->callback([request, prove] { prove(*request); });
 }
 
 }  // namespace limitcheck::cli

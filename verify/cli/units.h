@@ -3,6 +3,8 @@
 // of their parts.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdint>
@@ -11,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "data/error.h"
+#include "data/io/whole_content.h"
 #include "verify/cli/screen.h"
 #include "verify/shard/shard.h"
 
@@ -60,6 +64,14 @@ struct JobCounters {
 int run_jobs(int jobs, const std::function<int(int, JobCounters&)>& work,
              const std::function<void(const JobCounters&)>& show);
 
+/// read(text) of a file; of what is wrong with it data::ArgumentError says in which file, too.
+template <class Read>
+auto read_file(const std::string& file, const Read& read) try {
+  return read(data::io::whole_content(file));
+} catch (const data::ArgumentError& error) {
+  throw data::ArgumentError(fmt::format("{}: {}", file, error.what()));
+}
+
 /// SHA-256 of the bytes; empty: there is no such file.
 std::string file_digest(const std::string& file);
 
@@ -67,7 +79,8 @@ std::string file_digest(const std::string& file);
 /// far as the plan has them, of subjects and meshes) and a digest of all of it (verify/shard/shard.h).
 std::string attested(std::string report, const nlohmann::json& plan);
 
-/// What limitcheck prove is asked for, which hands it over to limitcheck-prove.
+/// What limitcheck prove is asked for: limitcheck knows the options, and hands them over to limitcheck-prove, which does
+/// it.
 struct ProveRequest {
   std::string scheme = "loop", valences, kernel = "all", set = "standard";
   int depth = 0;

@@ -2,19 +2,15 @@
 #include "verify/interrupt/interrupt.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
-#include <memory>
-#include <mutex>
+#include <future>
 #include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 namespace limitcheck::verify {
-
 namespace {
 
 constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
@@ -52,53 +48,27 @@ std::string signal_name(int signal) {
   return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGHUP";
 }
 
-namespace {
-
-constexpr std::chrono::milliseconds kLook{20};
-
-// What the two threads share; the one that is left keeps it.
-struct Shared {
-  std::mutex mutex;
-  std::condition_variable ended;
-  bool has_ended = false;
-  std::exception_ptr error;
-};
-
-}  // namespace
-
 bool run_or_abandon(std::function<void()> work, std::chrono::milliseconds to_end) {
-  const auto shared = std::make_shared<Shared>();
-  std::optional<std::thread> thread;
+  std::packaged_task<void()> task(work);
+  std::future<void> ended = task.get_future();
+  std::thread thread;
   try {
-    thread.emplace([shared, work] {
-      std::exception_ptr error;
-      try {
-        work();
-      } catch (...) {
-        error = std::current_exception();
-      }
-      const std::scoped_lock lock(shared->mutex);
-      shared->has_ended = true;
-      shared->error = error;
-      shared->ended.notify_all();
-    });
+    thread = std::thread(std::move(task));
   } catch (const std::system_error&) {  // there are no more threads to be had
     work();
     return true;
   }
   using Clock = std::chrono::steady_clock;
   std::optional<Clock::time_point> until;
-  std::unique_lock lock(shared->mutex);
-  while (!shared->ended.wait_for(lock, kLook, [&] { return shared->has_ended; })) {
+  while (ended.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
     if (interrupted() == 0) continue;
     if (!until) until = Clock::now() + to_end;
     if (Clock::now() < *until) continue;
-    thread->detach();
+    thread.detach();
     return false;
   }
-  lock.unlock();
-  thread->join();
-  if (shared->error) std::rethrow_exception(shared->error);
+  thread.join();
+  ended.get();  // exceptions pass on
   return true;
 }
 

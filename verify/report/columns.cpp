@@ -138,7 +138,7 @@ std::string table(std::vector<Column> columns, const std::vector<TableRow>& rows
   if (!fits())
     for (Column& column : columns) column.least = 0, column.gap = 1;
   while (!fits()) {
-    const auto first = std::min_element(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) {
+    const auto first = std::ranges::min_element(shown, [&](std::size_t a, std::size_t b) {
       return columns[a].leaves > 0 && (columns[b].leaves == 0 || columns[a].leaves < columns[b].leaves);
     });
     if (columns[*first].leaves == 0) break;

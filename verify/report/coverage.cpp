@@ -5,7 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cinttypes>
+#include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -48,8 +49,7 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
   for (const AuditMesh& m : meshes) {
     relations = relations || m.relations;
     schemes.insert(m.scheme());
-    const Case at(m.name, m.depth, m.depths, m.sample ? m.sample->text() : "");
-    question.cases.push_back({at, m.scheme(), cells_of(m)});
+    question.cases.push_back({case_of(m), m.scheme(), cells_of(m)});
   }
   for (const AuditSubject& s : subjects)
     for (const data::Scheme scheme : schemes) try {
@@ -152,19 +152,11 @@ struct Name {
   std::size_t number = 0;  // K - 1
   const std::vector<data::Stars>& meshes() const { return data::every_neighbourhood(triangles, most, kinds); }
 };
-bool parse(std::string_view text, Name& name) {
+bool parse(const std::string& text, Name& name) {
   name.triangles = !text.starts_with("quad-");
-  if (!name.triangles) text.remove_prefix(5);
-  constexpr std::string_view kWord = "neighbourhoods";
-  if (!text.starts_with(kWord)) return false;
-  text.remove_prefix(kWord.size());
-  const auto read = [&](auto& to) {
-    if (!text.starts_with(':')) return false;
-    const auto [stop, error] = std::from_chars(text.data() + 1, text.data() + text.size(), to);
-    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
-    return error == std::errc();
-  };
-  return read(name.most) && read(name.kinds) && read(name.number) && name.number-- > 0;
+  return std::sscanf(text.c_str() + (name.triangles ? 0 : 5), "neighbourhoods:%d:%" SCNd32 ":%zu", &name.most,
+                     &name.kinds, &name.number) == 3 &&
+         name.number-- > 0;
 }
 
 struct Seen {

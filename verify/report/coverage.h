@@ -12,6 +12,11 @@
 
 namespace limitcheck::verify {
 
+/// What rows of a mesh at its depths are of.
+inline Case case_of(const AuditMesh& m) {
+  return {m.name, m.depth, m.depths, m.sample ? m.sample->text() : ""};
+}
+
 /// What a subject declares for a scheme: LC_SHARP_.. and kNeeds.. (cells.h).
 struct Declared {
   std::string subject;

@@ -39,7 +39,7 @@ const std::vector<CheckGroup>& check_groups(const Report& report);
 /// How the rows of one subject in one group came out.
 struct GroupVerdict {
   std::int64_t bad = 0, looked_at = 0;  // cases
-  bool waived = false, stale = false, warning = false;
+  bool waived = false, stale = false;
   bool asked = false, supported = false;  // whether there are rows, and any that the subject supports
 
   /// "held", "3/126", "waived", "stale"; where nothing was looked at "not asked", "unsupported" or "not run".

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -12,16 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "verify/evidence/evidence.h"
 #include "verify/report/forms.h"
 #include "verify/row/bounds.h"
 #include "verify/row/commands.h"
-#include "verify/row/statistics.h"
 #include "verify/subject/weights_option.h"
 
 namespace limitcheck::verify {
@@ -62,10 +57,10 @@ Json errors(const Report& report) {
       for (const Result& r : report.results) {
         if (r.subject != subject || (r.unit == "degrees") != normals || r.decades.size() != counts.size())
           continue;
-        std::transform(counts.begin(), counts.end(), r.decades.begin(), counts.begin(), std::plus<>());
+        std::ranges::transform(counts, r.decades, counts.begin(), std::plus<>());
         bound = std::max(bound, r.bound.value_or(0));
       }
-      if (*std::max_element(counts.begin(), counts.end()) > 0)
+      if (*std::ranges::max_element(counts) > 0)
         list.push_back({{"subject", subject},
                         {"of", normals ? "normals" : "positions"},
                         {"bound", bound > 0 ? Json(bound) : Json(nullptr)},
@@ -183,13 +178,14 @@ struct Shown {
     for (std::size_t k = 0; k < triangles.size(); ++k)
       if (const Vector& p = positions[triangles[k][0]]; is_finite(p))
         order.emplace_back(is_finite(middle) ? norm(p - middle) : 0, k);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     order.resize(std::min(order.size(), kMostTriangles));
     std::vector<std::array<std::uint32_t, 3>> kept;
     for (const auto& [distance, k] : order) kept.push_back(triangles[k]);
     triangles = std::move(kept);
   }
-  ErrorShape shape(const data::ControlMesh& control,
+  // In the colours of normals or positions, with their bound.
+  ErrorShape shape(const data::ControlMesh& control, bool normals, double bound,
                    const std::function<std::uint8_t(std::uint32_t)>& value) const {
     ErrorShape shape;
     shape.control = edges_of(control);
@@ -203,17 +199,13 @@ struct Shown {
         shape.values.push_back(value(v));
       }
     for (std::size_t axis = 0; axis < 3; ++axis) shape.witness[axis] = static_cast<float>(middle[axis]);
+    shape.note = fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions",
+                             bound, normals ? " degrees" : " diagonals");
+    if (triangles.size() == kMostTriangles)
+      shape.note += fmt::format("; the {} triangles at the witness", kMostTriangles);
     return shape;
   }
 };
-
-std::string note_of(bool normals, double bound, std::size_t triangles) {
-  std::string note =
-      fmt::format("Colours are of {}, whose bound is {:.1e}{}", normals ? "normals" : "positions", bound,
-                  normals ? " degrees" : " diagonals");
-  if (triangles == kMostTriangles) note += fmt::format("; the {} triangles at the witness", kMostTriangles);
-  return note;
-}
 
 }  // namespace
 
@@ -256,11 +248,9 @@ std::optional<ErrorShape> error_shape(const AuditSubject& subject, const AuditMe
     const Sides::Id side = truth.sides().of(point, t.place(v).face);
     return truth.has_normal(side) ? angle_degrees(t.normal(v), truth.normal(side)) : 0.0;
   };
-  ErrorShape shape = shown.shape(mesh.mesh, [&](std::uint32_t v) {
+  return shown.shape(mesh.mesh, normals, bound, [&](std::uint32_t v) {
     return value_of(error(v), normals ? bound : e.position_bound_at(e.point[v]));
   });
-  shape.note = note_of(normals, bound, shown.triangles.size());
-  return shape;
 } catch (const std::exception&) {
   return std::nullopt;  // the report has a row that says so
 }
@@ -275,12 +265,10 @@ std::optional<ErrorShape> error_shape(const VertexErrors& file, const data::Cont
   shown.keep_nearest();
   const bool normals = row.unit == "degrees";
   const double bound = normals ? file.angle_bound : file.distance_bound;
-  ErrorShape shape = shown.shape(control, [&](std::uint32_t v) {
+  return shown.shape(control, normals, bound, [&](std::uint32_t v) {
     return is_finite(file.positions[v]) ? value_of(normals ? file.angle[v] : file.distance[v], bound)
                                         : std::uint8_t{255};
   });
-  shape.note = note_of(normals, bound, shown.triangles.size());
-  return shape;
 }
 
 }  // namespace limitcheck::verify

@@ -4,79 +4,53 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <concepts>
-#include <cstddef>
-#include <limits>
-#include <nlohmann/json.hpp>
-#include <tuple>
-#include <type_traits>
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"
 #include "data/untrusted_json.h"
-#include "verify/causes/causes.h"
 #include "verify/report/coverage.h"
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
+#include "verify/row/fields.h"
 #include "verify/row/rows.h"
 
 namespace limitcheck::verify {
-namespace {
 
-// The fields of a row and of what it holds, each under its name and in the order of the report: described once for
-// all that is written and read.
-template <class T, class Of>
-concept Is = std::same_as<std::remove_const_t<T>, Of>;
-
-template <class Visit, class... Member>
-void visit_each(Visit& visit, const char* const (&names)[sizeof...(Member)], Member&... members) {
-  std::size_t k = 0;
-  (visit(names[k++], members), ...);
-}
-
-/// Calls visit(name, member) for each. A structured binding names all members: with a new one this does not
-/// compile until it is visited, too. Fields without a name are of no use to who reads a report: only the parts
-/// have them of which a report is made.
-template <class Visit>
-void visit_fields(Is<IllConditioned> auto& row, Visit&& visit) {
+/// Calls visit(name, member) for each, in the order of the report. A structured binding names all members: with a new one
+/// this does not compile until it is visited, too. Fields without a name are of no use to who reads a report: only the
+/// parts have them of which a report is made.
+static void visit_fields(Is<IllConditioned> auto& row, auto&& visit) {
   auto& [count, bound, worst] = row;
   visit_each(visit, {"count", "bound", "worst"}, count, bound, worst);
 }
-template <class Visit>
-void visit_fields(Is<PlaceCount> auto& row, Visit&& visit) {
+static void visit_fields(Is<PlaceCount> auto& row, auto&& visit) {
   auto& [kind, faces, bad, of] = row;
   visit_each(visit, {"where", "faces", "count", "of"}, kind, faces, bad, of);
 }
-template <class Visit>
-void visit_fields(Is<Recognised> auto& row, Visit&& visit) {
+static void visit_fields(Is<Recognised> auto& row, auto&& visit) {
   auto& [what, scheme, steps, limit, tags] = row;
   visit_each(visit, {"what", "scheme", "steps", "limit", "tags"}, what, scheme, steps, limit, tags);
 }
-template <class Visit>
-void visit_fields(Is<Witness> auto& row, Visit&& visit) {
+static void visit_fields(Is<Witness> auto& row, auto&& visit) {
   auto& [face, l1, l2, vertex, triangle, expected, got, digits, corner, channel, rule] = row;
   visit_each(visit,
              {"face", "corner", "l1", "l2", "vertex", "triangle", "expected", "got", "expected_digits",
               "channel", "channel_rule"},
              face, corner, l1, l2, vertex, triangle, expected, got, digits, channel, rule);
 }
-template <class Visit>
-void visit_fields(Is<Report::Mesh> auto& row, Visit&& visit) {
+static void visit_fields(Is<Report::Mesh> auto& row, auto&& visit) {
   auto& [name, vertices, faces, scheme, triangulated, diagonal] = row;
   visit_each(visit, {"name", "vertices", "faces", "diagonal", "scheme", "triangulated"}, name, vertices,
              faces, diagonal, scheme, triangulated);
 }
-template <class Visit>
-void visit_fields(Is<Receipt> auto& row, Visit&& visit) {
+static void visit_fields(Is<Receipt> auto& row, auto&& visit) {
   auto& [subject, processes, at_once, bytes, shared, crashes, time, memory, protocol] = row;
   visit_each(visit,
              {"subject", "processes", "most_at_once", "peak_bytes", "peak_shared", "crashes", "over_time",
               "over_memory", "broke_protocol"},
              subject, processes, at_once, bytes, shared, crashes, time, memory, protocol);
 }
-template <class Visit>
-void visit_fields(Is<Result> auto& row, Visit&& visit) {
+static void visit_fields(Is<Result> auto& row, auto&& visit) {
   auto& [subject, mesh, check, depth, depths, sample, precision, scheme, cut, weights, status, bad, of, worst,
          bound, rms, p99, unit, absolute, ulps, ill, witness, message, accepted, not_finite, file_options,
          waiver, places, decades, seconds, recognised, origin] = row;
@@ -88,59 +62,14 @@ void visit_fields(Is<Result> auto& row, Visit&& visit) {
        "recognised", "seconds", "message", "witness",        "origin"},
       subject, mesh, depth, depths, sample, scheme, cut, precision, check, status, bad, of, worst, bound,
       unit, rms, p99, absolute, ulps, ill, places, recognised, seconds, message, witness, origin);
-  visit_each(visit, {"", "", "", "", "", ""}, weights, decades, accepted, not_finite, waiver, file_options);
+  visit_each(visit, weights, decades, accepted, not_finite, waiver, file_options);
 }
+
+namespace {
 
 using Ordered = nlohmann::ordered_json;
 using Json = nlohmann::json;
 
-std::string_view word(data::Scheme scheme) {
-  return data::name_of(scheme);
-}
-std::string_view word(lc_precision precision) {
-  return precision == LC_FLOAT32 ? "float" : "double";
-}
-std::string_view word(reference::Weights weights) {
-  return weights == reference::Weights::kWarren ? "warren" : "loop";
-}
-// The last enumerator of each type.
-constexpr std::tuple kLast{Status::kError,     Origin::kHost,
-                           PlaceKind::kCorner, data::Scheme::kCatmullClark,
-                           LC_FLOAT64,         reference::Weights::kWarren};
-
-// JSON has no number that is not finite: those are words.
-double number_of(const Json& json) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (json == "nan") return std::numeric_limits<double>::quiet_NaN();
-  if (json == "inf" || json == "-inf") return json == "inf" ? kInfinity : -kInfinity;
-  return json.get<double>();
-}
-
-// The number of an enumerator, or its word.
-template <class E>
-E enumerator(const Json& json) {
-  for (int k = 0; k <= static_cast<int>(std::get<E>(kLast)); ++k)
-    if (json.is_string() ? json.get_ref<const std::string&>() == word(static_cast<E>(k)) : json == k)
-      return static_cast<E>(k);
-  throw data::ArgumentError("no such kind: " + json.dump());
-}
-
-template <class T>
-constexpr bool kIsList = false;
-template <class T>
-constexpr bool kIsList<std::vector<T>> = true;
-template <class T>
-constexpr bool kIsOptional = false;
-template <class T>
-constexpr bool kIsOptional<std::optional<T>> = true;
-struct Nothing {
-  template <class Member>
-  void operator()(const char*, Member&) {}
-};
-template <class T>
-constexpr bool kHasFields = requires(T& row) {
-  visit_fields(row, Nothing{});
-};
 // As a report has it: what does not apply, or is no number, is null.
 template <class T>
 Ordered shown(const T& x) {
@@ -169,54 +98,6 @@ Ordered shown(const T& x) {
       if (*name != '\0') object[name] = shown(member);
     });
     return object;
-  }
-}
-
-// So that nothing is lost: a row is the array of its fields.
-template <class T>
-Json kept(const T& x) {
-  if constexpr (std::is_floating_point_v<T>) {
-    return number(x);
-  } else if constexpr (std::is_enum_v<T>) {
-    return static_cast<int>(x);
-  } else if constexpr (kIsOptional<T>) {
-    return x ? kept(*x) : Json(nullptr);
-  } else if constexpr (kIsList<T>) {
-    Json list = Json::array();
-    for (const auto& element : x) list.push_back(kept(element));
-    return list;
-  } else if constexpr (kHasFields<T>) {
-    Json list = Json::array();
-    visit_fields(x, [&](const char*, const auto& member) { list.push_back(kept(member)); });
-    return list;
-  } else {
-    return x;
-  }
-}
-
-// Both again: of an object the fields that it has, of an array all.
-template <class T>
-void read(const Json& json, T& x) {
-  if constexpr (std::is_floating_point_v<T>) {
-    x = number_of(json);
-  } else if constexpr (std::is_enum_v<T>) {
-    x = enumerator<T>(json);
-  } else if constexpr (kIsOptional<T>) {
-    x.reset();
-    if (!json.is_null()) read(json, x.emplace());
-  } else if constexpr (kIsList<T>) {
-    x.clear();
-    for (const Json& element : json) read(element, x.emplace_back());
-  } else if constexpr (kHasFields<T>) {
-    std::size_t k = 0;
-    visit_fields(x, [&](const char* name, auto& member) {
-      if (json.is_array())
-        read(json.at(k++), member);
-      else if (const auto field = json.find(name); field != json.end() && !field->is_null())
-        read(*field, member);
-    });
-  } else {
-    data::read_value(json, x);
   }
 }
 
@@ -268,10 +149,6 @@ Ordered row_json(const Result& r, int cause, const std::string& level) {
 }
 
 }  // namespace
-
-Ordered number(double x) {
-  return std::isnan(x) ? Ordered("nan") : std::isinf(x) ? Ordered(x > 0 ? "inf" : "-inf") : Ordered(x);
-}
 
 Ordered numbers(const std::vector<double>& list) {
   if (list.empty()) return nullptr;
@@ -335,7 +212,7 @@ std::string to_json(const Report& report, const std::string& level, bool all_row
       all_rows ? std::vector<bool>(report.results.size(), true) : rows_in_full(report);
   for (std::size_t k = 0; k < report.results.size(); ++k)
     if (full[k]) out["results"].push_back(row_json(report.results[k], cause_of[k], level));
-  if (std::count(full.begin(), full.end(), false) > 0) out["in_short"] = in_short(report, full);
+  if (std::ranges::count(full, false) > 0) out["in_short"] = in_short(report, full);
   return out.dump(1, ' ', false, Ordered::error_handler_t::replace) + "\n";
 }
 
@@ -375,23 +252,23 @@ std::vector<Receipt> receipts_of(const Json& json) {
   return all;
 }
 
+static void visit_header(auto& r, auto&& visit) {
+  visit_each(visit,
+             {"version", "depth", "depths", "seed", "sample", "meshes", "left_out", "rerun", "subjects",
+              "descriptions"},
+             r.version, r.depth, r.depths, r.seed, r.sample, r.meshes, r.left_out, r.rerun, r.subjects,
+             r.descriptions);
+}
+
 Json header_json(const Report& report) {
-  return {{"version", report.version},   {"depth", report.depth},
-          {"depths", report.depths},     {"seed", report.seed ? Json(*report.seed) : Json(nullptr)},
-          {"sample", report.sample},     {"meshes", kept(report.meshes)},
-          {"left_out", report.left_out}, {"rerun", report.rerun},
-          {"subjects", report.subjects}, {"descriptions", report.descriptions}};
+  Json json;
+  visit_header(report, [&](const char* name, const auto& member) { json[name] = kept(member); });
+  return json;
 }
 
 Report header_of(const Json& json) {
   Report report;
-  json.at("version").get_to(report.version), data::read_value(json.at("depth"), report.depth);
-  json.at("depths").get_to(report.depths), data::read_value(json.at("sample"), report.sample);
-  report.left_out = json.value("left_out", report.left_out);
-  report.rerun = json.value("rerun", report.rerun);
-  if (!json.at("seed").is_null()) report.seed = data::value_of<std::uint64_t>(json.at("seed"));
-  read(json.at("meshes"), report.meshes);
-  json.at("subjects").get_to(report.subjects), json.at("descriptions").get_to(report.descriptions);
+  visit_header(report, [&](const char* name, auto& member) { read(json.at(name), member); });
   return report;
 }
 

@@ -44,9 +44,7 @@ std::vector<Receipt> receipts_of(const nlohmann::json& json);
 nlohmann::json header_json(const Report& report);
 Report header_of(const nlohmann::json& json);
 
-/// JSON has no NaN and no infinity: these are the words "nan", "inf", "-inf".
-nlohmann::ordered_json number(double x);
-/// An array, null for an empty list.
+/// An array, null for an empty list; of numbers that are not finite the words (verify/row/fields.h).
 nlohmann::ordered_json numbers(const std::vector<double>& list);
 
 /// Writes a text whole or not at all (data/io/atomic_file.h); makes the folder. Throws

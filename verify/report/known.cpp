@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "verify/report/known.h"
 
-#include <fmt/core.h>
+#include <fmt/chrono.h>
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -53,16 +53,11 @@ bool covers(const Waiver& w, const Result& r, const std::map<std::string, std::s
 }
 
 bool is_a_day(const std::string& date) {
-  constexpr std::string_view kForm = "0000-00-00";
-  std::string form = date;
-  std::replace_if(
-      form.begin(), form.end(), [](char c) { return kDigits.find(c) != std::string_view::npos; }, '0');
-  if (form != kForm) return false;
-  const auto number = [&](std::size_t at, std::size_t count) { return std::stoi(date.substr(at, count)); };
-  return std::chrono::year_month_day(std::chrono::year(number(0, 4)),
-                                     std::chrono::month(static_cast<unsigned>(number(5, 2))),
-                                     std::chrono::day(static_cast<unsigned>(number(8, 2))))
-      .ok();
+  std::tm day{};
+  const char* const end = strptime(date.c_str(), "%Y-%m-%d", &day);
+  if (end == nullptr || *end != '\0') return false;
+  timegm(&day);  // 31 February becomes 3 March
+  return fmt::format("{:%Y-%m-%d}", day) == date;
 }
 
 nlohmann::json parse(const std::string& text) try {
@@ -315,7 +310,7 @@ Comparison compare(const Report& report, const Sums& before, const std::set<std:
   }
   for (const auto& [key, sum] : before)
     if (!elsewhere.contains(key.first.substr(0, key.first.find(':'))) && !now.contains(key) &&
-        std::any_of(report.results.begin(), report.results.end(), [&key = key](const Result& r) {
+        std::ranges::any_of(report.results, [&key = key](const Result& r) {
           return r.subject == key.first && r.check == key.second && looked_at(r);
         }))
       c.gone.push_back(fmt::format("gone: {} / {}", key.first, key.second));
@@ -345,16 +340,16 @@ void compare_with_baseline(Report& report, const std::string& text, const std::s
   const bool is_text = text.starts_with(kTitle);
   const Comparison c = is_text ? compare(report, baseline_sums(text, file), on_other_devices(report, text))
                                : compare(report, reported_rows(text, file));
-  Report::Changes changes;
+  Report::Changes& changes = report.changes.emplace();
   changes.baseline = file;
-  changes.appeared = static_cast<std::int64_t>(c.appeared.size());
-  changes.worse = static_cast<std::int64_t>(c.worse.size());
-  changes.gone = static_cast<std::int64_t>(c.gone.size());
   changes.same = c.same;
   changes.before = c.before;
-  for (const auto* list : {&c.appeared, &c.worse, &c.gone, &c.not_compared})
+  for (const auto& [list, count] : {std::pair(&c.appeared, &changes.appeared),
+                                    std::pair(&c.worse, &changes.worse), std::pair(&c.gone, &changes.gone)}) {
+    *count = std::ssize(*list);
     changes.named.insert(changes.named.end(), list->begin(), list->end());
-  report.changes = std::move(changes);
+  }
+  changes.named.insert(changes.named.end(), c.not_compared.begin(), c.not_compared.end());
 }
 
 std::string to_baseline(const Report& report) {

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "verify/report/forms.h"
 #include "verify/row/commands.h"
@@ -20,7 +17,7 @@ using Ordered = nlohmann::ordered_json;
 
 // Tools split class names at dots, and take the last part for the class.
 std::string without_dots(std::string text) {
-  std::replace(text.begin(), text.end(), '.', '_');
+  std::ranges::replace(text, '.', '_');
   return text;
 }
 
@@ -123,8 +120,7 @@ std::string to_junit(const Report& report) {
     }
     suites += fmt::format(
         " <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
-        "time=\"{:.3f}\">\n{} "
-        "</testsuite>\n",
+        "time=\"{:.3f}\">\n{} </testsuite>\n",
         xml_text(subject), tests, failures, errors, skipped, seconds, cases);
   }
   return fmt::format(
@@ -139,7 +135,7 @@ std::string to_sarif(const Report& report, const std::vector<Cause>& causes, con
   for (const Cause& c : causes) {
     const Result& example = report.results[c.example];
     const std::string rule = visible_text(example.check);
-    const auto at = std::find(known.begin(), known.end(), rule);
+    const auto at = std::ranges::find(known, rule);
     const auto index = at - known.begin();
     if (at == known.end()) {
       known.push_back(rule);
@@ -184,8 +180,8 @@ std::string to_markdown(const Report& report, const std::vector<Cause>& causes, 
   std::string out = "# " + markdown_text(header(report)) + "\n\n| subject |", line = "\n|---|";
   std::vector<const CheckGroup*> groups;
   for (const CheckGroup& g : check_groups(report))
-    if (std::any_of(report.subjects.begin(), report.subjects.end(),
-                    [&](const std::string& s) { return verdict_of(report, s, g).looked_at > 0; }))
+    if (std::ranges::any_of(report.subjects,
+                            [&](const std::string& s) { return verdict_of(report, s, g).looked_at > 0; }))
       groups.push_back(&g);
   for (const CheckGroup* g : groups) {
     out += fmt::format(" {} |", g->title);
@@ -200,11 +196,10 @@ std::string to_markdown(const Report& report, const std::vector<Cause>& causes, 
   out += "\n";
   for (std::size_t k = 0; k < causes.size(); ++k) {
     const Cause& c = causes[k];
-    const std::string& who = c.subjects.size() == 1 ? c.subjects.front() : c.who;
-    out += fmt::format("{}. **{}** {}: {}, in {} of {} cases\n", k + 1, c.severity(), markdown_text(who),
-                       markdown_text(c.title), c.cases, c.of);
+    out += fmt::format("{}. **{}** {}: {}, in {} of {} cases\n", k + 1, c.severity(),
+                       markdown_text(c.label()), markdown_text(c.title), c.cases, c.of);
     std::string command = visible_text(command_for(report, c, level));
-    std::replace(command.begin(), command.end(), '\n', ' ');
+    std::ranges::replace(command, '\n', ' ');
     if (!command.empty()) out += fmt::format("\n        {}\n\n", command);
   }
   return out + "\n" + markdown_text(changes_line(report)) + "\n\n" + markdown_text(summary(report)) + "\n";

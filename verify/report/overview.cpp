@@ -40,17 +40,12 @@ std::string matrix(const Report& report, const Screen& screen) {
   return table_in_blocks(columns, rows, screen, 0);
 }
 
-std::string who(const Cause& cause) {
-  if (cause.subjects.size() == 1) return cause.subjects.front();
-  return cause.who;
-}
-
 std::string one_line(const Cause& cause, std::size_t number, bool colour) {
   const char* code = cause.severity() == "high" ? "31" : cause.severity() == "medium" ? "33" : "2";
   const std::string cases = cause.of > 1 ? fmt::format(" (in {} of {} cases)", cause.cases, cause.of) : "";
   return fmt::format("{:>2} {} {}: {}{}\n", number,
-                     coloured(fmt::format("{:<6}", cause.severity()), code, colour), who(cause), cause.title,
-                     cases);
+                     coloured(fmt::format("{:<6}", cause.severity()), code, colour), cause.label(),
+                     cause.title, cases);
 }
 
 }  // namespace
@@ -60,8 +55,7 @@ const std::vector<CheckGroup>& check_groups(const Report& report) {
     std::vector<CheckGroup> all;
     for (const RowKind& row : row_kinds()) {
       if (row.group.empty() || row.check.starts_with("file-") != files) continue;
-      auto group =
-          std::find_if(all.begin(), all.end(), [&](const CheckGroup& g) { return g.title == row.group; });
+      auto group = std::ranges::find_if(all, [&](const CheckGroup& g) { return g.title == row.group; });
       if (group == all.end()) group = all.insert(all.end(), {row.group, {}});
       group->checks.push_back(row.check);
     }
@@ -81,16 +75,13 @@ GroupVerdict verdict_of(const Report& report, const std::string& subject, const 
   std::set<Case> bad, looked;
   GroupVerdict v;
   for (const Result& r : report.results) {
-    if (r.subject != subject ||
-        std::find(group.checks.begin(), group.checks.end(), r.check) == group.checks.end())
-      continue;
+    if (r.subject != subject || std::ranges::find(group.checks, r.check) == group.checks.end()) continue;
     v.asked = true;
     v.supported = v.supported || r.status != Status::kNotSupported;
     if (looked_at(r)) looked.insert(case_of(r));
     if (is_bad(r)) bad.insert(case_of(r));
     v.waived = v.waived || r.status == Status::kWaived;
     v.stale = v.stale || r.status == Status::kUnexpectedPass;
-    v.warning = v.warning || r.status == Status::kQualityWarning;
   }
   v.bad = static_cast<std::int64_t>(bad.size());
   v.looked_at = static_cast<std::int64_t>(looked.size());
@@ -120,8 +111,7 @@ std::string header(const Report& report) {
   std::vector<std::string_view> kept;
   for (const CheckGroup& g : check_groups(report))
     for (const std::string_view check : g.checks)
-      if (std::find(report.left_out.begin(), report.left_out.end(), check) == report.left_out.end())
-        kept.push_back(check);
+      if (std::ranges::find(report.left_out, check) == report.left_out.end()) kept.push_back(check);
   out += kept.size() < report.left_out.size()
              ? fmt::format("only these checks, {} are left out and not judged: {}\n", report.left_out.size(),
                            fmt::join(kept, ", "))
@@ -164,8 +154,7 @@ std::string summary(const Report& report) {
 std::string legend(const Report& report) {
   if (report.depths == "file")
     return "held: looked at, nothing wrong; 1/1: wrong; unsupported: the file has nothing of the kind; not "
-           "asked: an option "
-           "leaves it out; not run: something before it failed.\n"
+           "asked: an option leaves it out; not run: something before it failed.\n"
            "diagonal: of the control mesh's bounding box.\n";
   return fmt::format(
       "held: looked at, nothing wrong; 5/126: wrong in 5 of 126 {}; unsupported: the subject does not do it; "
@@ -211,7 +200,7 @@ std::string to_overview(const Report& report, const std::vector<Cause>& causes, 
     const std::string command = command_for(report, causes[k], level);
     long_form += line + (command.empty() ? "" : "          " + command + "\n");
   }
-  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
   const bool all = lines(top) + lines(bottom) + lines(long_form) + 2 <= kScreen;
   std::string middle;
   if (!causes.empty())
@@ -249,8 +238,7 @@ std::vector<Unjudged> unjudged(const Report& report, const std::vector<std::stri
   std::vector<Unjudged> missing;
   for (const std::string& subject : report.subjects)
     for (const std::string& check : checks) {
-      const bool left_out =
-          std::find(report.left_out.begin(), report.left_out.end(), check) != report.left_out.end();
+      const bool left_out = std::ranges::find(report.left_out, check) != report.left_out.end();
       Unjudged none{subject, check, left_out ? "left out by --checks" : "", false};
       bool judged = false;
       for (const Result& r : report.results) {
@@ -269,8 +257,8 @@ std::vector<Unjudged> unjudged(const Report& report) {
   std::erase_if(missing, [&](const Unjudged& none) {
     if (none.check == "rejected-inputs") return !none.not_asked;
     const auto any = [&](const auto& of) {
-      return std::any_of(report.results.begin(), report.results.end(),
-                         [&](const Result& r) { return r.subject == none.subject && of(r); });
+      return std::ranges::any_of(report.results,
+                                 [&](const Result& r) { return r.subject == none.subject && of(r); });
     };
     // What it tessellates nothing of, because it does not do the scheme, the table says.
     return !any([&](const Result& r) { return r.check == none.check; }) ||

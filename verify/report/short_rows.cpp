@@ -2,14 +2,13 @@
 // The rows of a large report that its JSON has in short: an audit of everything has 50 000 rows, of 45 MB in full.
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
-#include "data/untrusted_json.h"
 #include "verify/causes/causes.h"
 #include "verify/report/json.h"
+#include "verify/row/fields.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -38,7 +37,7 @@ std::vector<bool> rows_in_full(const Report& report) {
   for (const Cause& c : causes(report)) shows_a_cause[c.example] = true;
   std::vector<std::size_t> order(report.results.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return importance(report.results[a], shows_a_cause[a]) < importance(report.results[b], shows_a_cause[b]);
   });
   std::map<std::pair<std::string, std::string>, std::size_t> chosen;

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <string>
-#include <vector>
 
 #include "verify/row/commands.h"
 
@@ -59,7 +57,7 @@ std::vector<Line> lines_of(const Report& report, const std::string& subject) {
   std::vector<Line> lines;
   for (const Result& r : report.results) {
     if (r.subject != subject) continue;
-    auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) { return l.check == r.check; });
+    auto line = std::ranges::find_if(lines, [&](const Line& l) { return l.check == r.check; });
     if (line == lines.end()) line = lines.insert(lines.end(), Line{r.check, {}, nullptr, 0, 0});
     line->results.push_back(&r);
     line->bad_meshes += is_bad(r);
@@ -179,8 +177,7 @@ std::string matrix(const Report& report, const Screen& screen) {
   for (std::size_t k = 0; k < report.subjects.size(); ++k) {
     columns.push_back({report.subjects[k], 14});
     for (const Line& line : lines_of(report, report.subjects[k])) {
-      auto row = std::find_if(rows.begin(), rows.end(),
-                              [&](const TableRow& r) { return r.cells[0].text == line.check; });
+      auto row = std::ranges::find_if(rows, [&](const TableRow& r) { return r.cells[0].text == line.check; });
       if (row == rows.end()) row = rows.insert(rows.end(), TableRow{{TableCell{line.check}}});
       row->cells.resize(k + 1);
       row->cells.push_back(painted(line.shown->status));
@@ -247,8 +244,7 @@ std::string not_looked_at(const Report& report, const std::vector<Line>& lines) 
   std::vector<std::string_view> absent;
   for (const CheckGroup& group : check_groups(report))
     for (const std::string_view check : group.checks) {
-      const bool there =
-          std::any_of(lines.begin(), lines.end(), [&](const Line& l) { return l.check == check; });
+      const bool there = std::ranges::any_of(lines, [&](const Line& l) { return l.check == check; });
       any = any || there;
       // These rows are there only where they are needed.
       if (!there && check != "refined-positions" && check != "recognised") absent.push_back(check);
@@ -287,8 +283,7 @@ std::string to_table(const Report& report, const Screen& screen, bool all) {
     std::vector<Line> lines = lines_of(report, subject);
     out += "\n" + subject + "\n";
     const std::string why_not = reasons(report, subject);
-    if (!why_not.empty() &&
-        std::none_of(lines.begin(), lines.end(), [](const Line& l) { return l.looked_at > 0; })) {
+    if (!why_not.empty() && std::ranges::none_of(lines, [](const Line& l) { return l.looked_at > 0; })) {
       out += why_not;
       continue;
     }

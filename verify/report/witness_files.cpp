@@ -3,7 +3,6 @@
 
 #include <cctype>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <system_error>
 
 #include "data/io/write.h"

@@ -72,7 +72,7 @@ std::string depths_in_full(const Report& report, const std::string& subject) {
     if (r.subject != subject || !looked_at(r)) continue;
     if (uniform(r))
       depths.insert(r.depth);
-    else if (std::find(unequal.begin(), unequal.end(), r.depths) == unequal.end())
+    else if (std::ranges::find(unequal, r.depths) == unequal.end())
       unequal.push_back(r.depths);
   }
   return fmt::format("{}{}{}", fmt::join(depths, " "),

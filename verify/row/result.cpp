@@ -103,8 +103,8 @@ void add(std::vector<PlaceCount>& to, const std::vector<PlaceCount>& counts) {
 }
 
 bool is_everywhere(const std::vector<PlaceCount>& counts) {
-  return std::any_of(counts.begin(), counts.end(),
-                     [](const PlaceCount& c) { return c.kind == PlaceKind::kRegularFace && c.bad > 0; });
+  return std::ranges::any_of(
+      counts, [](const PlaceCount& c) { return c.kind == PlaceKind::kRegularFace && c.bad > 0; });
 }
 
 std::string where_wrong(const std::vector<PlaceCount>& counts) {
@@ -122,7 +122,7 @@ std::string where_wrong(const std::vector<PlaceCount>& counts) {
   }
   const std::string last = words.back();
   words.pop_back();
-  const bool regular = std::any_of(counts.begin(), counts.end(), [](const PlaceCount& c) {
+  const bool regular = std::ranges::any_of(counts, [](const PlaceCount& c) {
     return c.of > 0 && (c.kind == PlaceKind::kRegularFace || c.kind == PlaceKind::kRegularVertex);
   });
   return (words.empty() ? last : fmt::format("{} and {}", fmt::join(words, ", "), last)) +

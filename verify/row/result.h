@@ -247,16 +247,15 @@ struct Report {
   std::optional<Changes> changes;  // with a baseline: only what is new or worse is not held, unless `rerun`
 
   /// Whether anything was looked at: if nothing asked for is supported, nothing was.
-  bool looked() const { return std::any_of(results.begin(), results.end(), looked_at); }
+  bool looked() const { return std::ranges::any_of(results, looked_at); }
   /// Whether nothing was left out for what this program or its system lacked.
   bool host_sufficed() const {
-    return std::none_of(results.begin(), results.end(),
-                        [](const Result& r) { return r.origin == Origin::kHost; });
+    return std::ranges::none_of(results, [](const Result& r) { return r.origin == Origin::kHost; });
   }
   bool held() const {
     if (!incomplete.empty() || !host_sufficed()) return false;
     if (changes && rerun.empty()) return changes->appeared + changes->worse == 0;
-    return std::none_of(results.begin(), results.end(), is_bad);
+    return std::ranges::none_of(results, is_bad);
   }
 };
 

@@ -69,8 +69,7 @@ const std::vector<RowKind>& row_kinds() {
       {"coverage", "tiling", kTiling,
        "Each control face is tiled exactly once, by any triangles whose corners are lattice points, and "
        "every lattice point of its depth is a corner. Culled faces are not there. Where points may lie "
-       "anywhere, the "
-       "corners are at any fractions.",
+       "anywhere, the corners are at any fractions.",
        kNone, "integer arithmetic on the lattice of the control face"},
       {"shared-positions", "seams", kSeams,
        "A point on a control edge or vertex that is delivered more than once has the same bits each time.",
@@ -94,8 +93,7 @@ const std::vector<RowKind>& row_kinds() {
       {"vertex-order", "order", kOrder, "Control vertices numbered otherwise.", kTwice, kRelation},
       {"corner-rotation", "order", kOrder,
        "Some faces, drawn at random, begin at another corner. What faces share has equal bits then, too, if "
-       "it had "
-       "before: a mesh written evenly hides sums whose order depends on the face that asks.",
+       "it had before: a mesh written evenly hides sums whose order depends on the face that asks.",
        kTwice, kRelation},
       {"mirror", "order", kOrder, "The mirror image gives the mirror image.", kTwice, kRelation},
       {"rotation", "order", kOrder, "Axes exchanged with signs, an exact rotation.", kTwice, kRelation},
@@ -150,14 +148,12 @@ const std::vector<RowKind>& row_kinds() {
       // Of meshes with channels.
       {"channel-positions", "channels", kOther,
        "At each corner of each triangle the values of the mesh's face-varying channels, on the side of a "
-       "seam on which the "
-       "triangle lies.",
+       "seam on which the triangle lies.",
        "As of positions, with the size of the channel.",
        "Stam's evaluator in double on the mesh that is cut along the seams"},
       {"channel-derivatives", "channels", kOther,
        "Only where the subject delivers them: the derivatives of channels by the parameters of the control "
-       "face, "
-       "at each corner of each triangle on its side of a seam, where the limit has any.",
+       "face, at each corner of each triangle on its side of a seam, where the limit has any.",
        "2^(steps + 2) times that of channel-positions.",
        "a difference of points 2^-steps apart (verify/row/bounds.h); as for channel-positions, and "
        "certified"},
@@ -191,9 +187,8 @@ const std::vector<RowKind>& row_kinds() {
        "shading scales with the length; four decimals round to 9e-5"},
       {"file-channel", "channels", kOther,
        "Only where the control mesh has texture coordinates: those of the file against the exact channel, at "
-       "each corner of a "
-       "triangle on the side of the seam where the triangle lies. Rule: --channel-rule, else as the control "
-       "mesh says, else corners-plus1.",
+       "each corner of a triangle on the side of the seam where the triangle lies. Rule: --channel-rule, "
+       "else as the control mesh says, else corners-plus1.",
        "--tolerance, in diagonals of the channel, and what the channel changes within the tolerance of a "
        "position.",
        kFile},
@@ -225,7 +220,7 @@ const std::vector<RowKind>& row_kinds() {
 
 const RowKind* row_kind(std::string_view check) {
   const auto& all = row_kinds();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const RowKind& k) { return k.check == check; });
+  const auto found = std::ranges::find_if(all, [&](const RowKind& k) { return k.check == check; });
   return found == all.end() ? nullptr : &*found;
 }
 

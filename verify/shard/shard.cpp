@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <set>
@@ -21,6 +20,7 @@
 
 #include "data/error.h"
 #include "data/io/whole_content.h"
+#include "data/numeral.h"
 #include "data/untrusted_json.h"
 
 namespace limitcheck::verify {
@@ -48,17 +48,11 @@ int opened(const std::filesystem::path& file, int flags) {
 }  // namespace
 
 Shard parse_shard(const std::string& text) {
-  const auto refuse = [&] {
-    throw data::ArgumentError(fmt::format("--shard {}: K/N with 1 <= K <= N, for example 3/8", text));
-  };
   Shard shard;
-  const char* const end = text.data() + text.size();
   std::uint64_t k = 0;
-  auto [at, error] = std::from_chars(text.data(), end, k);
-  if (error != std::errc() || at == end || *at != '/') refuse();
-  const auto count = std::from_chars(at + 1, end, shard.count);
-  if (count.ec != std::errc() || count.ptr != end || k < 1 || k > shard.count || shard.count > 1'000'000)
-    refuse();
+  if (data::read_numbers(text, '/', k, shard.count) != 2 || k < 1 || k > shard.count ||
+      shard.count > 1'000'000)
+    throw data::ArgumentError(fmt::format("--shard {}: K/N with 1 <= K <= N, for example 3/8", text));
   shard.index = k - 1;
   return shard;
 }
@@ -80,7 +74,7 @@ void require_all(const std::vector<Shard>& shards) {
 
 bool PartReport::is_complete() const {
   // Not a walk through the units of the plan: a file that somebody wrote may tell of 10^18.
-  return results.size() == plan.size() && std::all_of(results.begin(), results.end(), [&](const auto& r) {
+  return results.size() == plan.size() && std::ranges::all_of(results, [&](const auto& r) {
            return r.first < plan.units && plan.has(r.first);
          });
 }

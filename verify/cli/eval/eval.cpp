@@ -3,13 +3,18 @@
 #include "verify/cli/eval/eval.h"
 
 #include <fmt/format.h>
+#include <tbb/info.h>
 
 #include <cmath>
 #include <memory>
-#include <string>
+#include <numeric>
 
 #include "data/error.h"
+#include "data/numeral.h"
 #include "reference/surface/channel.h"
+#include "verify/audit/at_point.h"
+#include "verify/cli/audit.h"
+#include "verify/evidence/audit_case.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -29,6 +34,85 @@ void round_to_float(data::ControlMesh& mesh) {
   for (data::Channel& channel : mesh.channels)
     for (std::size_t i = 0; i < channel.values.size(); ++i)
       round(channel.values[i], "texture value", i / static_cast<std::size_t>(channel.components));
+}
+
+// "3/8", "0".
+std::pair<std::uint32_t, std::uint32_t> fraction(const Parameter& parameter) {
+  const std::string text = parameter.to_string();
+  std::pair<std::uint32_t, std::uint32_t> result{0, 1};
+  if (data::read_numbers(text, '/', result.first, result.second) == 0)
+    throw data::ArgumentError(fmt::format("--subject: {} is no lattice point", text));
+  return result;
+}
+
+verify::Place place(const FaceAndCorner& at, const Parameter& u, const Parameter& v) {
+  const auto [i, n] = fraction(u);
+  const auto [j, m] = fraction(v);
+  const std::uint64_t both = std::lcm<std::uint64_t>(n, m);
+  if (both > (1U << 20)) throw data::ArgumentError("--subject: the point is no lattice point");
+  return {static_cast<std::int32_t>(at.face), static_cast<std::uint32_t>(i * (both / n)),
+          static_cast<std::uint32_t>(j * (both / m)), static_cast<std::uint32_t>(both),
+          at.corner.value_or(0)};
+}
+
+std::string vector(const verify::Vector& v, bool in_float) {
+  if (in_float)
+    return fmt::format("{}  {}  {}", static_cast<float>(v[0]), static_cast<float>(v[1]),
+                       static_cast<float>(v[2]));
+  return fmt::format("{}  {}  {}", v[0], v[1], v[2]);
+}
+
+std::string off(double amount, double bound, const char* unit, const char* otherwise) {
+  if (std::isnan(amount)) return otherwise;
+  return fmt::format("off by {:.3g} {}, allowed {:.2g}{}", amount, unit, bound,
+                     amount <= bound ? "" : "  <-- wrong");
+}
+
+void print_expected(const verify::VertexAtPoint& p, bool refined) {
+  say("expected  position  {}{}\n", vector(p.expected, false),
+      refined ? "  (of the refined control mesh)" : "");
+  if (p.normal)
+    say("          normal    {}\n",
+        p.expected_normal ? vector(*p.expected_normal, false) : "any of length 1: the surface has none");
+}
+
+/// What the subject delivers at the point and what it should, and how far they are apart. Returns the exit code: 1 if a
+/// vertex is beyond its bounds or not finite, or if vertices that should be equal have other bits. Throws
+/// data::ArgumentError: there is no such subject, or the point is no lattice point of the depth.
+int show_difference(const EvalRequest& request, const FaceAndCorner& at, const OpenedMesh& opened) {
+  const Parameter u = Parameter::parse(request.u), v = Parameter::parse(request.v);
+  verify::AuditMesh mesh{request.mesh, opened.mesh};
+  mesh.asked_scheme = opened.chosen.scheme;
+  mesh.depth = request.depth;
+  mesh.depths = request.depths;
+  mesh.face_depth = verify::face_depths(verify::parse_depths(request.depths), mesh.mesh, request.depth);
+  refuse_too_many_points(mesh);
+  SubjectLoader loader(SubjectArguments{});
+  const verify::AuditSubject subject = loader.open(request.subject);
+  const verify::AtPoint found =
+      verify::look_at(subject, mesh, place(at, u, v), static_cast<int>(tbb::info::default_concurrency()));
+
+  say("{}\n{} at depth {}{}, face {}{} at ({}, {})\n", scheme_line({opened.chosen}, request.options),
+      request.mesh, request.depth, request.depths == "uniform" ? "" : " (" + request.depths + ")", at.face,
+      at.corner ? fmt::format(" corner {}", *at.corner) : "", u.to_string(), v.to_string());
+  if (found.vertices.empty()) say("{} delivers no vertex there\n", subject.label());
+  const verify::VertexAtPoint* before = nullptr;
+  for (const verify::VertexAtPoint& p : found.vertices) {
+    const bool told =
+        before != nullptr && before->expected == p.expected && before->expected_normal == p.expected_normal;
+    before = &p;
+    if (!told) print_expected(p, found.refined);
+    say("{} vertex {}\n", subject.label(), p.vertex);
+    say("          position  {}\n                    {}\n", vector(p.position, found.in_float),
+        off(p.distance, found.bound, "diagonals", "not finite  <-- wrong"));
+    if (p.normal)
+      say("          normal    {}\n                    {}\n", vector(*p.normal, found.in_float),
+          off(p.angle, p.angle_bound, "degrees", "not finite, or not of length 1  <-- wrong"));
+  }
+  if (found.vertices.size() > 1)
+    say("{} vertices at this point; {}\n", found.vertices.size(),
+        found.same_bits ? "the same bits" : "they differ in bits  <-- wrong");
+  return found.held() ? kHeld : kFindings;
 }
 
 int run(const EvalRequest& request) {
@@ -73,7 +157,7 @@ int run(const EvalRequest& request) {
 FaceAndCorner parse_face(const std::string& text) {
   FaceAndCorner result;
   int corner = 0;
-  const int count = read_numbers(text, ':', result.face, corner);
+  const int count = data::read_numbers(text, ':', result.face, corner);
   if (count == 0)
     throw data::ArgumentError(
         fmt::format("FACE is a number from 0 in file order, or FACE:CORNER, not '{}'", text));
@@ -126,10 +210,10 @@ void add_eval(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<EvalRequest>();
   command->add_option("MESH", request->mesh, "A mesh file, or a name as `limitcheck generate` takes it")
       ->required();
-  CLI::Option* points = add_value(
-      *command, "--points", request->points, "FILE|-",
-      "Evaluate every line FACE,U,V of a file, or of standard input, on all processors, and write a line "
-      "for each: CSV with a header, or JSON with --json");
+  CLI::Option* points =
+      add_value(*command, "--points", request->points, "FILE|-",
+                "Evaluate every line FACE,U,V of a file, or of standard input, on all processors, and write "
+                "a line for each: CSV with a header, or JSON with --json");
   command
       ->add_option(
           "FACE", request->face,
@@ -149,10 +233,9 @@ void add_eval(CLI::App& app, int& exit_code) {
       "--certified", request->certified,
       "With --points: certified decimals, as many as --digits, and the largest radius; without: doubles");
   certified->needs(points);
-  add_number(
-      *command, "--derivatives", request->derivatives, 0, 2,
-      "With --points: columns for position alone (0), for normal, d1 and d2 (1), for d11, d12, d22 and "
-      "curvatures (2)")
+  add_number(*command, "--derivatives", request->derivatives, 0, 2,
+             "With --points: columns for position alone (0), for normal, d1 and d2 (1), for d11, d12, d22 "
+             "and curvatures (2)")
       ->needs(points);
   add_mesh_options(*command, request->options);
   add_number(*command, "--digits", request->digits, 1, 10000, "Significant digits");
@@ -162,12 +245,11 @@ void add_eval(CLI::App& app, int& exit_code) {
             "Loop's scheme: weights of interior vertices, Loop's or Warren's");
   command->add_flag("--json", request->json,
                     "One JSON document, numbers as decimal strings; with --points a document on each line");
-  CLI::Option* subject =
-      command
-          ->add_option("--subject", request->subject,
-                       "Show what this subject (as `limitcheck audit` takes it) delivers at the point, "
-                       "beside what it should; exit code 1 if it is wrong")
-          ->excludes(points);
+  CLI::Option* subject = command
+                             ->add_option("--subject", request->subject,
+                                          "Show what this subject (as `limitcheck audit` takes it) delivers "
+                                          "at the point, beside what it should; exit code 1 if it is wrong")
+                             ->excludes(points);
   add_number(*command, "--depth", request->depth, 0, 12,
              "With --subject: subdivision depth of every face, or of the deepest one")
       ->needs(subject);
@@ -190,9 +272,8 @@ void add_eval(CLI::App& app, int& exit_code) {
       "middle of the edge to the next corner, (1, 1) the middle of the face. Derivatives are by these "
       "parameters: d1 by U, d2 by V.\n\n"
       "Curvatures: K is positive where the surface is like a ball, negative where it is like a saddle. H, "
-      "the mean of the "
-      "two principal curvatures, is positive where the surface bends away from its normal: on a ball seen "
-      "from outside.");
+      "the mean of the two principal curvatures, is positive where the surface bends away from its normal: "
+      "on a ball seen from outside.");
   command->callback([request, &exit_code] { exit_code = run(*request); });
 }
 

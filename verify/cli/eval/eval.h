@@ -66,11 +66,6 @@ struct EvaluatedPoint {
 void print_point_as_json(const EvaluatedPoint& at);
 void print_point(const EvaluatedPoint& at);
 
-/// What the subject delivers at the point and what it should, and how far they are apart. Returns the exit code: 1 if a
-/// vertex is beyond its bounds or not finite, or if vertices that should be equal have other bits. Throws
-/// data::ArgumentError: there is no such subject, or the point is no lattice point of the depth.
-int show_difference(const EvalRequest& request, const FaceAndCorner& at, const OpenedMesh& opened);
-
 /// Evaluates every line FACE,U,V of a file (or of standard input) and writes a line for each, in their order: CSV, or
 /// JSON with request.json. On all processors; memory does not grow with the number of lines. Throws data::InputError:
 /// the file cannot be read, or a line is no point of the mesh; lines before that one have been written.

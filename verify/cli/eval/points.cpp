@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/compile.h>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <array>
@@ -13,10 +14,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "data/error.h"
 #include "reference/surface/channel.h"
@@ -28,8 +26,8 @@ namespace {
 
 using reference::CertifiedPoint, reference::Enclosure3, reference::Parameter, reference::Vec3;
 
-constexpr std::size_t kBlock = std::size_t{4} << 20;  // of the input, read at a time
-constexpr std::size_t kPart = std::size_t{16} << 10;  // of a block, one after the other
+constexpr std::size_t kPart = std::size_t{16}
+                              << 10;  // bytes of the input that are answered one after the other
 
 struct Column {
   const char* name;
@@ -196,24 +194,22 @@ void put_line(Text& to, const std::vector<Column>& columns, const Given& g, cons
   append(to, "}\n");
 }
 
-// Some lines of a block, the number of the first, and what became of them.
+// Some lines of the input, the number of the first, and what became of them.
 struct Part {
-  std::string_view lines;
+  std::string lines;
   std::int64_t first;
   Text text{};
   std::exception_ptr error{};
 };
 
-std::vector<Part> parts_of(std::string_view block, std::int64_t& line) {
-  std::vector<Part> parts;
-  while (!block.empty()) {
-    const std::size_t end = block.find('\n', std::min(kPart, block.size() - 1));
-    const std::string_view lines = block.substr(0, end == block.npos ? block.size() : end + 1);
-    parts.push_back({lines, line});
-    line += std::count(lines.begin(), lines.end(), '\n');
-    block.remove_prefix(lines.size());
-  }
-  return parts;
+// The next of them; no lines: there are none left.
+std::shared_ptr<Part> next_part(std::istream& in, std::int64_t& line) {
+  const auto part = std::make_shared<Part>(Part{std::string(kPart, '\0'), line});
+  in.read(part->lines.data(), kPart);
+  part->lines.resize(static_cast<std::size_t>(in.gcount()));
+  if (std::string rest; std::getline(in, rest)) part->lines += rest + "\n";
+  line += std::ranges::count(part->lines, '\n');
+  return part;
 }
 
 // Calls answer(line, text) for each line that is no comment, and a header if it is the first; the error names the line.
@@ -277,24 +273,22 @@ void evaluate_points(const EvalRequest& request, const OpenedMesh& opened) {
   };
 
   if (!request.json) say_text(stdout, header_of(columns, channel != nullptr));
-  std::string block, left;
   std::int64_t line = 1;
-  do {
-    block = std::move(left);
-    const std::size_t kept = block.size();
-    block.resize(kept + kBlock);
-    in.read(block.data() + kept, kBlock);
-    block.resize(kept + static_cast<std::size_t>(in.gcount()));
-    const std::size_t whole = in ? block.rfind('\n') + 1 : block.size();
-    left = block.substr(whole);
-    block.resize(whole);
-    std::vector<Part> parts = parts_of(block, line);
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) { run(parts[k], name, answer); });
-    for (const Part& part : parts) {
-      say_text(stdout, std::string(part.text.data(), part.text.size()));
-      if (part.error) std::rethrow_exception(part.error);
-    }
-  } while (in);
+  using tbb::filter_mode, tbb::make_filter;
+  using Lines = std::shared_ptr<Part>;
+  tbb::parallel_pipeline(
+      4 * static_cast<std::size_t>(tbb::info::default_concurrency()),
+      make_filter<void, Lines>(filter_mode::serial_in_order, [&](tbb::flow_control& control) {
+        Lines part = next_part(in, line);
+        if (part->lines.empty()) control.stop();
+        return part;
+      }) & make_filter<Lines, Lines>(filter_mode::parallel, [&](Lines part) {
+        run(*part, name, answer);
+        return part;
+      }) & make_filter<Lines, void>(filter_mode::serial_in_order, [](const Lines& part) {
+        say_text(stdout, std::string(part->text.data(), part->text.size()));
+        if (part->error) std::rethrow_exception(part->error);
+      }));
   if (in.bad()) throw data::InputError("FILE_NOT_READABLE", name, 0, "cannot be read");
 }
 

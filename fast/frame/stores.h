@@ -63,18 +63,12 @@ inline __m128 load8(const float* from) {
   return _mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(from));
 }
 
-template <Stores stores>
-inline void copy_one(const float* from, float* to) {
-  put16<stores, false>(to, _mm_loadu_ps(from));
-  put8<stores>(to + 4, load8(from + 4));
-}
-
 template <Stores stores, bool aligned>
 inline void copy_vertices(const float* from, std::size_t count, float* to) {
   std::size_t k = 0;
   for (; k + 2 <= count; k += 2, from += 12, to += 12)
     for (int t = 0; t < 12; t += 4) put16<stores, aligned>(to + t, _mm_loadu_ps(from + t));
-  if (k < count) copy_one<stores>(from, to);
+  if (k < count) put16<stores, false>(to, _mm_loadu_ps(from)), put8<stores>(to + 4, load8(from + 4));
 }
 
 // x y z n of a, then n n of a and x y of b, then the rest of b.

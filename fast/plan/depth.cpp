@@ -173,9 +173,9 @@ Facing BasicDepthHeuristics<Surface>::facing(std::int32_t face, std::span<const 
 template <class Surface>
 Facing BasicDepthHeuristics<Surface>::vertex_facing(std::int32_t v,
                                                     std::span<const std::uint8_t> away) const {
-  if (surface_.any_neighbour(v, [&](std::int32_t w) { return away[w] != away[v]; }))
-    return Facing::kSilhouette;
-  return away[v] != 0 ? Facing::kBack : Facing::kFront;
+  bool other = false;
+  surface_.adjacency.for_each_neighbour(v, [&](std::int32_t w) { other = other || away[w] != away[v]; });
+  return other ? Facing::kSilhouette : away[v] != 0 ? Facing::kBack : Facing::kFront;
 }
 
 template <class Surface>

@@ -178,13 +178,6 @@ struct TriangleSurface {
     for (int k = 0; k < 3; ++k) visit(adjacency.corner(f, k));
   }
   void gather(Ring& ring, std::int32_t v) const;
-  /// Whether any neighbour of v is one that `is` says yes to.
-  template <class Is>
-  bool any_neighbour(std::int32_t v, Is&& is) const {
-    bool any = false;
-    adjacency.for_each_neighbour(v, [&](std::int32_t w) { any = any || is(w); });
-    return any;
-  }
 };
 
 /// Of Loop's scheme. Keeps references to mesh, adjacency and kinds, which must outlive it. The mesh has a

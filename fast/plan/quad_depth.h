@@ -17,6 +17,7 @@ struct QuadSurface {
 
   const QuadFaces& faces;
   const SemiSharp& semi_sharp;
+  const QuadAdjacency& adjacency = faces.mesh->adjacency;
 
   std::size_t face_count() const { return static_cast<std::size_t>(faces.size()); }
   std::span<const std::array<double, 3>> positions() const { return faces.mesh->positions; }
@@ -26,12 +27,6 @@ struct QuadSurface {
       visit(faces.vertex(static_cast<std::int32_t>(c)));
   }
   void gather(QuadRing& ring, std::int32_t v) const { ring.gather(*faces.mesh, semi_sharp, v); }
-  template <class Is>
-  bool any_neighbour(std::int32_t v, Is&& is) const {
-    bool any = false;
-    faces.mesh->adjacency.for_each_neighbour(v, [&](std::int32_t w) { any = any || is(w); });
-    return any;
-  }
 };
 
 /// Of Catmull-Clark's scheme. Keeps references to the faces and tags, which must outlive it.

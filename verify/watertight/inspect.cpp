@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <type_traits>
+#include <utility>
 
 #include "verify/watertight/watertight.h"
 
@@ -119,13 +121,9 @@ struct Ray {
 class StarInspector {
  public:
   void inspect(std::int32_t v, std::span<Ray> star, SurfaceReport& out) {
-    std::sort(star.begin(), star.end(), [](const Ray& a, const Ray& b) {
-      return a.next != b.next ? a.next < b.next : a.triangle < b.triangle;
-    });
+    std::ranges::sort(star, {}, [](const Ray& r) { return std::pair(r.next, r.triangle); });
     by_previous_.assign(star.begin(), star.end());
-    std::sort(by_previous_.begin(), by_previous_.end(), [](const Ray& a, const Ray& b) {
-      return a.previous != b.previous ? a.previous < b.previous : a.triangle < b.triangle;
-    });
+    std::ranges::sort(by_previous_, {}, [](const Ray& r) { return std::pair(r.previous, r.triangle); });
     edges(v, star, out);
     duplicates(v, star, out);
     if (fans(star) > 1) note(out.bow_tie_points, out.bow_tie_witness, v);
@@ -167,35 +165,24 @@ class StarInspector {
         note(out.duplicate_triangles, out.duplicate_witness, pairs_[k][2]);
   }
 
-  // The number of fans: triangles of the star joined where they share a neighbour.
-  int fans(std::span<const Ray> star) {
-    const auto n = static_cast<std::int32_t>(star.size());
-    parent_.resize(star.size());
-    for (std::int32_t k = 0; k < n; ++k) parent_[k] = k;
-    int count = n;
-    const auto join = [&](std::int32_t a, std::int32_t b) {
-      a = root(a), b = root(b);
-      if (a == b) return;
+  // The number of fans: neighbours joined by the triangles of the star.
+  std::int32_t fans(std::span<const Ray> star) {
+    neighbours_.clear();
+    for (const Ray& r : star) neighbours_.insert(neighbours_.end(), {r.next, r.previous});
+    std::sort(neighbours_.begin(), neighbours_.end());
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+    parent_.resize(neighbours_.size());
+    std::iota(parent_.begin(), parent_.end(), 0);
+    auto count = static_cast<std::int32_t>(neighbours_.size());
+    const auto root_of = [&](std::int32_t neighbour) {
+      const auto at = std::lower_bound(neighbours_.begin(), neighbours_.end(), neighbour);
+      return root(static_cast<std::int32_t>(at - neighbours_.begin()));
+    };
+    for (const Ray& r : star) {
+      const std::int32_t a = root_of(r.next), b = root_of(r.previous);
+      if (a == b) continue;
       parent_[a] = b;
       --count;
-    };
-    for (std::int32_t k = 1; k < n; ++k)
-      if (star[k].next == star[k - 1].next) join(k, k - 1);
-    for (std::int32_t k = 0; k < n; ++k) {  // the triangles whose `next` is this triangle's `previous`
-      const auto it = std::lower_bound(star.begin(), star.end(), star[k].previous,
-                                       [](const Ray& r, std::int32_t w) { return r.next < w; });
-      if (it != star.end() && it->next == star[k].previous)
-        join(k, static_cast<std::int32_t>(it - star.begin()));
-    }
-    for (std::int32_t k = 1; count > 1 && k < n; ++k) {  // two that run into one neighbour (clashing edges)
-      const auto index = [&](const Ray& r) {
-        const auto it = std::lower_bound(star.begin(), star.end(), r, [](const Ray& a, const Ray& b) {
-          return a.next != b.next ? a.next < b.next : a.triangle < b.triangle;
-        });
-        return static_cast<std::int32_t>(it - star.begin());
-      };
-      if (by_previous_[k].previous == by_previous_[k - 1].previous)
-        join(index(by_previous_[k]), index(by_previous_[k - 1]));
     }
     return count;
   }
@@ -207,7 +194,7 @@ class StarInspector {
 
   std::vector<Ray> by_previous_;
   std::vector<std::array<std::int32_t, 3>> pairs_;
-  std::vector<std::int32_t> parent_;
+  std::vector<std::int32_t> neighbours_, parent_;
 };
 
 // Closed walks along the open edges, or -1 where a point has more than one of them leaving or none.

@@ -119,7 +119,7 @@ TEST(UnusualSubjects, AreNotBlamed) {
   std::vector<AuditSubject> subjects;
   for (const Habit& habit : habits())
     if (!habit.of_the_process) subjects.push_back({lc_subject_unusual(), options_of(habit.name)});
-  expect_no_finding(subjects, cases(2500));
+  expect_no_finding(subjects, cases(1000));
 }
 
 // Those that do something to their process, each in a worker of its own.
@@ -135,7 +135,7 @@ class UnusualSubject : public testing::TestWithParam<std::string> {};
 TEST_P(UnusualSubject, IsNotBlamedForWhatItDoesToItsProcess) {
   IsolationSettings settings{.worker = LIMITCHECK_PROGRAM};
   const RemoteSubject remote(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
-  expect_no_finding({{&remote.subject(), options_of(GetParam())}}, cases(600));
+  expect_no_finding({{&remote.subject(), options_of(GetParam())}}, cases(200));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAHabit, UnusualSubject, testing::ValuesIn(habits_of_the_process()),

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include "data/error.h"
@@ -96,12 +97,12 @@ class StamData {
       const bool closed = sector.closed;
       if (closed && state == VertexState::kOrdinary && valence < kManyFaces) {
         const auto& modes = modes_.try_emplace(valence, valence, weights_).first->second;
-        rings_.push_back(TwoRing<N>(modes, points_[v], r, q, p));
+        rings_.emplace_back(std::in_place_type<TwoRing<N>>, modes, points_[v], r, q, p);
         continue;
       }
       const std::tuple kind(valence, closed, state);
       const auto& found = stepped_kinds_.try_emplace(kind, valence, closed, state, weights_).first->second;
-      rings_.push_back(SteppedRing<N>(found, points_[v], r, q, p));
+      rings_.emplace_back(std::in_place_type<SteppedRing<N>>, found, points_[v], r, q, p);
       if (kRounds<N> && valence >= kManyFaces)  // who asks for balls asks for few points
         limit_of_.emplace(v, limit_at(v));
     }

@@ -110,8 +110,8 @@ struct QuadStreams {
 /// may share it.
 ///
 /// The same points come out in several forms: rows() hands over each row in a buffer that the next one
-/// overwrites; whole(), put() and streamed() write whole grids to memory; and StreamTessellator makes strips, patches, or
-/// an indexed mesh in which shared points appear once.
+/// overwrites; whole(), put() and streamed() write whole grids to memory; and StreamTessellator makes strips,
+/// patches, or an indexed mesh in which shared points appear once.
 template <class Scheme>
 class BasicRowStream {
  public:

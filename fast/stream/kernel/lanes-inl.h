@@ -17,7 +17,6 @@
 
 #include "fast/frame/stores.h"
 #include "fast/stream/kernel/number.h"
-#include "fast/stream/kernel/rules-inl.h"
 #include "fast/stream/kernel/vertex-inl.h"
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128  // those run the scalar kernel

@@ -15,7 +15,6 @@
 #endif
 
 #include "fast/stream/kernel/layout.h"
-#include "fast/stream/kernel/rules-inl.h"
 #include "fast/stream/kernel/vertex-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -14,7 +14,6 @@
 #include <type_traits>
 
 #include "fast/stream/kernel/layout.h"
-#include "fast/stream/kernel/rules-inl.h"
 #include "fast/stream/kernel/strip-inl.h"
 #include "fast/stream/kernel/vertex-inl.h"
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Limit points on their way out: their normals, and rows of them in an order that keeps the processor busy.
+//
+// This file and the others of the kernel are compiled once for each of Highway's targets, and once for
+// numbers that are no vectors (kernel.h). So their include guards are those of Highway's own -inl.h files.
 
 #if defined(LIMITCHECK_FAST_STREAM_VERTEX_INL_H_) == defined(HWY_TARGET_TOGGLE)  // per target
 #ifdef LIMITCHECK_FAST_STREAM_VERTEX_INL_H_
@@ -23,6 +26,15 @@ HWY_ATTR HWY_INLINE void normal_direction(const V (&a)[3], const V (&b)[3], V* o
   out[0] = N::fms(a[1], b[2], a[2] * b[1]);
   out[1] = N::fms(a[2], b[0], a[0] * b[2]);
   out[2] = N::fms(a[0], b[1], a[1] * b[0]) + N::splat(0x1p-60);
+}
+
+/// Half the sum of p and q, with few enough digits that moving there and back costs hardly any. The same in
+/// either order. Numbers without rounding have no digits to save.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typename N::Scalar* q, V* origin) {
+  const V magic = N::splat(0x1.8p11);  // a float of that size ends at 2^-12, a double at 2^-41
+  for (int c = 0; c < 3; ++c)
+    origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
 }
 
 /// A vertex on its way: limit position, a normal of any length and its square. Its way to unit length is a

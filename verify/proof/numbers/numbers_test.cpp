@@ -149,7 +149,7 @@ std::int64_t power(int base, int exponent) {
 struct Rules {
   Counts edge, vertex, limit, normal;
 };
-/// Read off the formulas in rules-inl.h. Edge: fma(3, a + b, c + d). Vertex: fma(5, v, .5 * sum of six). Limit: sum of
+/// Read off the formulas in strip-inl.h. Edge: fma(3, a + b, c + d). Vertex: fma(5, v, .5 * sum of six). Limit: sum of
 /// six and fma, 3 for slant, 1 for across. Normal: cross product 3 and 3 fused and the bias, square 1 + 2, root 5
 /// products and 3 fused, unit length 3 fused.
 constexpr Rules kStream{

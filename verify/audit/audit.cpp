@@ -125,13 +125,11 @@ struct Auditor::Rows {
   std::vector<Result>& results;
 
   void add(std::string_view check, Status status, const std::string& message) const {
-    Result r;
-    r.subject = subject;
-    r.mesh = mesh;
-    r.check = check;
-    r.status = status;
-    r.message = message;
-    results.push_back(std::move(r));
+    results.push_back({.subject = subject,
+                       .mesh = mesh,
+                       .check = std::string(check),
+                       .status = status,
+                       .message = message});
   }
   // The row `tessellates` of a subject that does not.
   void add_failure(const std::exception& error, const std::string& contradiction) const {

@@ -15,18 +15,16 @@
 namespace limitcheck::verify {
 
 Result Evidence::result(std::string_view check, std::string_view unit, std::optional<double> bound) const {
-  Result r;
-  r.subject = subject;
-  r.mesh = mesh_name;
-  r.check = check;
-  r.unit = unit;
-  r.bound = bound;
-  r.depth = lattice.depth();
-  r.precision = capabilities.precision;
-  r.scheme = lattice.scheme();
-  r.weights = reference.weights();
-  r.status = Status::kHeld;
-  return r;
+  return {.subject = subject,
+          .mesh = mesh_name,
+          .check = std::string(check),
+          .depth = lattice.depth(),
+          .precision = capabilities.precision,
+          .scheme = lattice.scheme(),
+          .weights = reference.weights(),
+          .status = Status::kHeld,
+          .bound = bound,
+          .unit = std::string(unit)};
 }
 
 Witness Evidence::at_vertex(std::int64_t vertex) const {

@@ -178,15 +178,10 @@ FilesAudit audit_files(const std::string& control_name, const data::ControlMesh&
     for (const char* check :
          {"file-finite", "file-unused", distance_row(provenance), "file-normals", "file-normal-length",
           "file-orientation", "file-coverage", "file-degenerate", "file-watertight", "file-hausdorff"}) {
-      if (std::any_of(audit.results.begin(), audit.results.end(),
-                      [&](const Result& r) { return r.check == check; }))
-        continue;
-      Result r;
-      r.subject = name;
-      r.mesh = control_name;
-      r.check = check;
-      r.message = "interrupted";
-      audit.results.push_back(std::move(r));
+      if (std::none_of(audit.results.begin(), audit.results.end(),
+                       [&](const Result& r) { return r.check == check; }))
+        audit.results.push_back(
+            {.subject = name, .mesh = control_name, .check = check, .message = "interrupted"});
     }
   }
   return audit;

@@ -28,23 +28,19 @@ std::string impossible(const lc_capabilities& c) {
     std::memcpy(&n, &value, sizeof n);
     return n;
   };
-  struct Choice {
-    const char* name;
-    std::int32_t value;
-  };
-  for (const Choice& choice : {Choice{"precision", number(c.precision)},
-                               {"weights", number(c.weights)},
-                               {"boundary", number(c.boundary)},
-                               {"points", number(c.points)},
-                               {"normals", c.normals},
-                               {"per_face_depth", c.per_face_depth},
-                               {"exact_lattice", c.exact_lattice},
-                               {"does_not_validate", c.does_not_validate},
-                               {"no_provenance", c.no_provenance},
-                               {"channel_derivatives", c.channel_derivatives},
-                               {"points_anywhere", c.points_anywhere}})
-    if (choice.value != 0 && choice.value != 1)
-      return fmt::format("{} is {}, and only 0 and 1 mean something", choice.name, choice.value);
+  for (const auto& [name, value] : {std::pair{"precision", number(c.precision)},
+                                    {"weights", number(c.weights)},
+                                    {"boundary", number(c.boundary)},
+                                    {"points", number(c.points)},
+                                    {"normals", c.normals},
+                                    {"per_face_depth", c.per_face_depth},
+                                    {"exact_lattice", c.exact_lattice},
+                                    {"does_not_validate", c.does_not_validate},
+                                    {"no_provenance", c.no_provenance},
+                                    {"channel_derivatives", c.channel_derivatives},
+                                    {"points_anywhere", c.points_anywhere}})
+    if (value != 0 && value != 1)
+      return fmt::format("{} is {}, and only 0 and 1 mean something", name, value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
     return fmt::format("schemes is {}", c.schemes);
   if (c.sharp < 0 || c.sharp >= 2 * LC_SHARP_NO_DARTS) return fmt::format("sharp is {}", c.sharp);

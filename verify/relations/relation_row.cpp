@@ -78,9 +78,9 @@ std::uint64_t digest(const Tessellation& t, std::int64_t vertex, const Variant& 
 std::int64_t lost(std::vector<std::uint64_t> list, std::vector<std::uint64_t> other) {
   std::sort(list.begin(), list.end());
   std::sort(other.begin(), other.end());
-  std::vector<std::uint64_t> lost;
-  std::set_difference(list.begin(), list.end(), other.begin(), other.end(), std::back_inserter(lost));
-  return std::ssize(lost);
+  std::vector<std::uint64_t> gone;
+  std::set_difference(list.begin(), list.end(), other.begin(), other.end(), std::back_inserter(gone));
+  return std::ssize(gone);
 }
 
 // From harmless to fatal: the worst of a row is its status.

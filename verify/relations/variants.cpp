@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/relations/variants.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>

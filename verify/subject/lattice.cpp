@@ -146,9 +146,9 @@ Lattice::Id Lattice::id(std::int32_t face, FaceDomain::Point p, std::int64_t ste
   return first_on_edge(corner_edge_[corner_number(face, side)]) + from_smaller - 1;
 }
 
-std::optional<int> Lattice::corner_of(std::int32_t face, Id vertex) const {
-  const auto begin = vertex_corners_.begin() + first_at_vertex_[vertex],
-             end = vertex_corners_.begin() + first_at_vertex_[vertex + 1];
+std::optional<int> Lattice::corner_of(std::int32_t face, Id id) const {
+  const auto begin = vertex_corners_.begin() + first_at_vertex_[id],
+             end = vertex_corners_.begin() + first_at_vertex_[id + 1];
   const std::int32_t first = corner_number(face, 0);
   const auto found = std::lower_bound(begin, end, first);
   return found != end && *found < first + domain(face).corners() ? std::optional(*found - first)

@@ -16,15 +16,13 @@
 namespace limitcheck::verify {
 
 Result FileEvidence::result(std::string check, std::string unit, std::optional<double> bound) const {
-  Result r;
-  r.subject = tessellation.name;
-  r.mesh = control_name;
-  r.check = std::move(check);
-  r.scheme = scheme();
-  r.status = Status::kHeld;
-  r.unit = std::move(unit);
-  r.bound = bound;
-  return r;
+  return {.subject = tessellation.name,
+          .mesh = control_name,
+          .check = std::move(check),
+          .scheme = scheme(),
+          .status = Status::kHeld,
+          .bound = bound,
+          .unit = std::move(unit)};
 }
 
 Witness FileEvidence::at_vertex(std::int32_t vertex) const {

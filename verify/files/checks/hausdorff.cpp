@@ -184,7 +184,7 @@ std::vector<std::array<Vector, 3>> one_polygon(const FileEvidence& e, std::int32
 // The largest distance, at most, from the surface over a control face, holes left out, to one flat polygon of
 // the limits of that face's corners; in the mesh's unit.
 double from_one_polygon_each(const FileEvidence& e) {
-  std::vector<std::optional<Triangles>> polygons(e.control.faces.size());
+  std::vector<std::optional<TriangleTree>> polygons(e.control.faces.size());
   tbb::parallel_for(std::size_t{0}, polygons.size(), [&](std::size_t f) {
     polygons[f].emplace(one_polygon(e, static_cast<std::int32_t>(f)));
   });
@@ -195,7 +195,7 @@ double from_one_polygon_each(const FileEvidence& e) {
   tbb::parallel_for(std::size_t{0}, apart.size(), [&](std::size_t f) {
     const auto face = static_cast<std::int32_t>(f);
     if (surface.is_hole(face)) return;
-    const Triangles& polygon = *polygons[surface.control_face(face)];
+    const TriangleTree& polygon = *polygons[surface.control_face(face)];
     for (std::size_t k = f * per_face; k < (f + 1) * per_face; ++k)
       for (const Vector& corner : lattice.corners(k))
         apart[f] = std::max(apart[f], polygon.distance(corner) + lattice.deviation(k));

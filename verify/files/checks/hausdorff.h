@@ -28,6 +28,8 @@ struct Hausdorff {
   double one_polygon_each = 0;  // at most so far is the surface from one polygon per control face
 };
 
+/// By how much of the largest distance found an upper bound may lie above it.
+inline constexpr double kTightness = .02;
 /// The triangles are laid over the domain by their placed corners and cut along the pieces of the surface
 /// lattice. On a part that lies in one triangle T and one flat piece P, the distance from the part of P to T
 /// is largest at one of its corners, because the distance to a convex set is a convex function; likewise from
@@ -41,7 +43,6 @@ struct Hausdorff {
 /// distances of their corners and their size, split three times.
 ///   tick   called now and then from this thread; may throw to end it
 ///   error  rounding, 1e-15 of the mesh, is not accounted for
-inline constexpr double kTightness = .02;
 Hausdorff hausdorff(
     const FileEvidence& evidence, const std::function<void()>& tick = [] {});
 
@@ -65,9 +66,9 @@ inline Vector mix(const std::array<Vector, 3>& corner, const Barycentric& weight
 }
 
 /// Triangles, of which the nearest is found by their boxes.
-class Triangles {
+class TriangleTree {
  public:
-  explicit Triangles(std::vector<std::array<Vector, 3>> triangles);
+  explicit TriangleTree(std::vector<std::array<Vector, 3>> triangles);
   /// Of a point from the nearest; infinite without triangles.
   double distance(const Vector& p) const;
 
@@ -112,7 +113,7 @@ class Overlay {
   const FileEvidence& e_;
   std::vector<std::vector<Over>> over_;         // of each face
   std::vector<std::array<Vector, 3>> corners_;  // of each triangle
-  std::optional<Triangles> finite_;             // those with finite corners
+  std::optional<TriangleTree> finite_;          // those with finite corners
   std::vector<std::int32_t> loose_;
 };
 

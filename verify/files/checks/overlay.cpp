@@ -75,10 +75,10 @@ std::vector<BoxTree::Box> boxes_of(const std::vector<std::array<Vector, 3>>& tri
 
 }  // namespace
 
-Triangles::Triangles(std::vector<std::array<Vector, 3>> triangles)
+TriangleTree::TriangleTree(std::vector<std::array<Vector, 3>> triangles)
     : triangles_(std::move(triangles)), tree_(boxes_of(triangles_)) {}
 
-double Triangles::distance(const Vector& p) const {
+double TriangleTree::distance(const Vector& p) const {
   double least = std::numeric_limits<double>::infinity();
   tree_.near(p, [&](std::size_t k) {
     return least = std::min(least, closest_on_triangle(p, triangles_[k]).distance);

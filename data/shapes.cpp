@@ -92,21 +92,17 @@ ControlMesh octahedron() {
 
 ControlMesh icosahedron() {
   const double g = rounded((1 + std::sqrt(5.0)) / 2);
-  return {{{-1, g, 0},
-           {1, g, 0},
-           {-1, -g, 0},
-           {1, -g, 0},
-           {0, -1, g},
-           {0, 1, g},
-           {0, -1, -g},
-           {0, 1, -g},
-           {g, 0, -1},
-           {g, 0, 1},
-           {-g, 0, -1},
-           {-g, 0, 1}},
-          {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-           {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-           {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+  ControlMesh mesh;
+  for (std::size_t turn = 0; turn < 3; ++turn)
+    for (const double y : {g, -g})
+      for (const double x : {-1., 1.}) {
+        auto& p = mesh.positions.emplace_back();
+        p[turn] = x, p[(turn + 1) % 3] = y;
+      }
+  mesh.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  return mesh;
 }
 
 ControlMesh torus(int around, int along) {

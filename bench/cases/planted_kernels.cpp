@@ -6,7 +6,6 @@
 //   FUNCTION=+N      each call takes about N instructions more, as many in every call
 //   calls            at the end, on standard error, a line for each function: "calls FUNCTION NUMBER"
 // where FUNCTION is "loop/avx2/run_edges" or "catmull-clark/avx512/patch_lines".
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>

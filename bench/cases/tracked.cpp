@@ -2,7 +2,6 @@
 #include "bench/cases/tracked.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <utility>

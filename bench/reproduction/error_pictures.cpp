@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cracks and what becomes of them, the centres of fans, and a heat map of errors beside its control mesh.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -12,21 +11,6 @@
 namespace limitcheck::bench {
 
 namespace {
-
-/// The control mesh itself as triangles with normals of their own.
-fast::DrawList<float> control_triangles(const data::ControlMesh& mesh) {
-  fast::DrawList<float> list;
-  for (const auto& t : triangles_of(mesh)) {
-    std::array<fast::Point3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = fast::to_point(mesh.positions[t[k]]);
-    fast::Point3 n = cross(p[1] - p[0], p[2] - p[0]);
-    n = (1 / length(n)) * n;
-    for (const auto& q : p) list.vertices.push_back(vertex(q, n));
-  }
-  list.draws.push_back(
-      {0, static_cast<std::int32_t>(list.vertices.size()), 0, 0, 0, fast::DrawMode::kTriangles});
-  return list;
-}
 
 Image cracks_close_up(fast::Repair repair) {
   Studio studio = bumpy(200);
@@ -92,7 +76,7 @@ Image error_beside_control_mesh() {
     map.draws.push_back({first, 3, 1, error.draw->face_of(error.triangle), -1, fast::DrawMode::kTriangles});
     colour[first] = heat(1 + std::log10(std::max(error.position, 1e-12) / most) / 2);
   });
-  return beside({studio.shot(control_triangles(studio.mesh()), front, {.wireframe = true}),
+  return beside({studio.shot(flat_faces(studio.mesh()), front, {.wireframe = true}),
                  studio.shot(map, front, {.colour = painted(colour), .wireframe = true})});
 }
 

@@ -30,20 +30,6 @@ void add(fast::DrawList<float>& list, std::int32_t face, const std::array<Vector
     list.vertices.push_back(vertex(fast::to_point(p[k]), fast::to_point(n[k])));
 }
 
-fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {
-  fast::DrawList<float> list;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::size_t k = 1; k + 1 < mesh.faces[f].size(); ++k) {
-      const std::array<Vector, 3> p{mesh.positions[mesh.faces[f][0]], mesh.positions[mesh.faces[f][k]],
-                                    mesh.positions[mesh.faces[f][k + 1]]};
-      const Vector area = cross(p[1] - p[0], p[2] - p[0]);
-      const double length = norm(area);
-      const Vector n{area[0] / length, area[1] / length, area[2] / length};
-      add(list, static_cast<std::int32_t>(f), p, {n, n, n});
-    }
-  return list;
-}
-
 // A pawn that stands upright, its foot and its collar sharp for ever, a ring between them for two steps and a
 // half.
 data::ControlMesh creased_pawn() {
@@ -65,6 +51,20 @@ data::ControlMesh creased_pawn() {
 }
 
 }  // namespace
+
+fast::DrawList<float> flat_faces(const data::ControlMesh& mesh) {
+  fast::DrawList<float> list;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::size_t k = 1; k + 1 < mesh.faces[f].size(); ++k) {
+      const std::array<Vector, 3> p{mesh.positions[mesh.faces[f][0]], mesh.positions[mesh.faces[f][k]],
+                                    mesh.positions[mesh.faces[f][k + 1]]};
+      const Vector area = cross(p[1] - p[0], p[2] - p[0]);
+      const double length = norm(area);
+      const Vector n{area[0] / length, area[1] / length, area[2] / length};
+      add(list, static_cast<std::int32_t>(f), p, {n, n, n});
+    }
+  return list;
+}
 
 Image open_crease() {
   Studio studio(data::named_mesh("open-crease:3"));

@@ -114,6 +114,9 @@ inline Studio bumpy(int faces) {
   return Studio(data::bumpy_sphere(faces, kSphereSeed));
 }
 
+/// The control mesh itself, its faces cut into triangles from their first corner, each with a normal of its own.
+fast::DrawList<float> flat_faces(const data::ControlMesh& mesh);
+
 /// Depths 1 and 4 side by side, near and from the side: the cracks that they leave, and what becomes of them.
 Image cracks_and_repair();
 /// One fan, every triangle in one shade: its centre on the flat triangle, and on the limit surface.

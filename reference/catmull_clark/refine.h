@@ -145,6 +145,17 @@ struct QuadMesh : CutMesh<N> {
   std::size_t face_count() const { return given.size() > 0 ? given.size() : topology.faces().size(); }
 };
 
+/// Goes on into the quarter of a quad that holds a point, and says which: that at corner 0 .. 3. The parameters become
+/// those on it.
+template <class P>
+std::size_t descend(P& u, P& v) {
+  const P half = P(1) / P(2);
+  const bool right = u > half, up = v > half;
+  u = 2 * u - (right ? 1 : 0);
+  v = 2 * v - (up ? 1 : 0);
+  return up ? (right ? 2 : 3) : (right ? 1 : 0);
+}
+
 /// A quad that needs steps before its surface can be said, and a point of it: the mesh of few faces in whose
 /// face 0 the point is after these steps, with no semi-sharp tags left.
 ///   at      the parameters on the quad; becomes those on face 0
@@ -152,13 +163,8 @@ struct QuadMesh : CutMesh<N> {
 template <class N, class P>
 QuadMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t quad, P& u, P& v, long& steps) {
   TaggedMesh<N> near = mesh.around(quad);
-  for (steps = 0; near.sharpness.needs_a_step(near.topology)[0]; ++steps) {
-    const P half = P(1) / P(2);
-    const bool right = u > half, up = v > half;
-    u = 2 * u - (right ? 1 : 0);
-    v = 2 * v - (up ? 1 : 0);
-    near = refine_once(near, data::TriangleRule::kCatmark).around(up ? (right ? 2 : 3) : (right ? 1 : 0));
-  }
+  for (steps = 0; near.sharpness.needs_a_step(near.topology)[0]; ++steps)
+    near = refine_once(near, data::TriangleRule::kCatmark).around(descend(u, v));
   return QuadMesh<N>(std::move(near));
 }
 
@@ -188,10 +194,9 @@ QuadParameter<P> locate(const QuadMesh<N>& mesh, int face, int corner, const P& 
   if (mesh.given.size() == 0) return {f, u, v, false};
   const std::size_t first = mesh.given.first_corner(f);
   if (corners != 4) return {first + static_cast<std::size_t>(corner), u, v, false};
-  const P half = P(1) / P(2);
-  const bool right = u > half, up = v > half;
-  return {first + (up ? (right ? 2U : 3U) : (right ? 1U : 0U)), right ? P(2 * u - 1) : P(2 * u),
-          up ? P(2 * v - 1) : P(2 * v), true};
+  P in_u = u, in_v = v;
+  const std::size_t k = descend(in_u, in_v);
+  return {first + k, in_u, in_v, true};
 }
 
 }  // namespace limitcheck::reference::catmull_clark

@@ -10,11 +10,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "reference/loop/dart.h"

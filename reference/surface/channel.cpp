@@ -79,11 +79,7 @@ Descent descend(auto& steps, int corner, Rational u, Rational v) {
     steps.to(static_cast<std::size_t>(corner));
     corner = 0;
   }
-  for (; !steps.done(); factor *= 2) {
-    const bool right = 2 * u > 1, up = 2 * v > 1;
-    u = 2 * u - (right ? 1 : 0), v = 2 * v - (up ? 1 : 0);
-    steps.to(up ? (right ? 2 : 3) : (right ? 1 : 0));
-  }
+  for (; !steps.done(); factor *= 2) steps.to(catmull_clark::descend(u, v));
   return {corner, u, v, factor};
 }
 
@@ -102,8 +98,11 @@ Descent descend_triangles(auto& steps, const Parameter& first, const Parameter& 
 // The corners between which a channel of the rule `all` is linear or bilinear: those of a triangle of Loop's scheme, of a
 // quad, or of the quad at a corner of another face.
 template <class N>
-std::vector<Vec3<N>> linear_corners(const std::vector<Vec3<N>>& values, bool loop, int corner) {
-  const std::size_t n = values.size(), k = static_cast<std::size_t>(corner);
+std::vector<Vec3<N>> linear_corners(const ChannelMesh<N>& mesh, bool loop, std::size_t face, int corner) {
+  const std::size_t n = mesh.topology.faces()[face].size(), k = static_cast<std::size_t>(corner);
+  const auto first =
+      mesh.values.begin() + static_cast<std::ptrdiff_t>(mesh.topology.faces().first_corner(face));
+  const std::vector<Vec3<N>> values(first, first + static_cast<std::ptrdiff_t>(n));
   if (loop || n == 4) return values;
   return {values[k], boundary_edge_point(values[k], values[(k + 1) % n]),
           catmull_clark::face_point<N>(values), boundary_edge_point(values[k], values[(k + n - 1) % n])};
@@ -113,11 +112,7 @@ std::vector<Vec3<N>> linear_corners(const std::vector<Vec3<N>>& values, bool loo
 template <class N>
 Settled<N> linear(const ChannelMesh<N>& mesh, bool loop, std::size_t face, int corner, const Rational& u,
                   const Rational& v) {
-  const auto first =
-      mesh.values.begin() + static_cast<std::ptrdiff_t>(mesh.topology.faces().first_corner(face));
-  const std::vector<Vec3<N>> values(first,
-                                    first + static_cast<std::ptrdiff_t>(mesh.topology.faces()[face].size()));
-  Settled<N> result{{}, linear_corners(values, loop, corner), 0, u, v, 1};
+  Settled<N> result{{}, linear_corners(mesh, loop, face, corner), 0, u, v, 1};
   result.cut.faces = loop ? data::Faces{{0, 1, 2}} : data::Faces{{0, 1, 2, 3}};
   for (std::int32_t vertex = 0; vertex < static_cast<std::int32_t>(result.values.size()); ++vertex)
     result.cut.tags.vertices.push_back({vertex, Parameter(10.)});
@@ -126,6 +121,17 @@ Settled<N> linear(const ChannelMesh<N>& mesh, bool loop, std::size_t face, int c
 
 Parameter parameter(const Rational& p) {
   return Parameter::parse(p.str());
+}
+
+ChannelTopology topology_of(const data::ControlMesh& mesh, const data::Channel& channel,
+                            data::ChannelRule rule) {
+  return {Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule};
+}
+
+void require_valid(const data::ControlMesh& mesh, const data::Channel& channel, data::Scheme scheme) {
+  if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
+    throw data::ArgumentError("channel '" + channel.name + "': " + fault);
+  if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
 }
 
 }  // namespace
@@ -154,12 +160,9 @@ struct ChannelEvaluator::Data {
 
 ChannelEvaluator::ChannelEvaluator(const data::ControlMesh& mesh, const data::Channel& channel,
                                    data::ChannelRule rule, data::Scheme scheme, Method method) {
-  if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
-    throw data::ArgumentError("channel '" + channel.name + "': " + fault);
-  if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
-  auto data = std::make_unique<Data>(Data{
-      scheme, rule, mesh.sharpness.triangles,
-      ChannelTopology(Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule)});
+  require_valid(mesh, channel, scheme);
+  auto data =
+      std::make_unique<Data>(Data{scheme, rule, mesh.sharpness.triangles, topology_of(mesh, channel, rule)});
   for (int first = 0; first < channel.components; first += 3) {
     Block block(channel.corners.size());
     for (std::size_t c = 0; c < block.size(); ++c)
@@ -210,11 +213,6 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
 }
 
 namespace {
-
-ChannelTopology topology_of(const data::ControlMesh& mesh, const data::Channel& channel,
-                            data::ChannelRule rule) {
-  return {Topology(mesh.positions.size(), mesh.faces), mesh.sharpness, channel.corners, rule};
-}
 
 Surface surface_of(const Settled<double>& part, data::Scheme scheme) {
   return {part.cut.faces, part.values, part.cut.tags, scheme};
@@ -301,9 +299,7 @@ struct ChannelSurface::Data {
 
 ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channel& channel,
                                data::ChannelRule rule, data::Scheme scheme) {
-  if (const std::string fault = data::fault_of(channel, mesh); !fault.empty())
-    throw data::ArgumentError("channel '" + channel.name + "': " + fault);
-  if (scheme == data::Scheme::kLoop) (void)triangles_of(mesh);  // or it throws
+  require_valid(mesh, channel, scheme);
   std::vector<Vec3<double>> values(channel.corners.size());
   for (std::size_t c = 0; c < values.size(); ++c)
     for (int k = 0; k < std::min(channel.components, 3); ++k)
@@ -321,10 +317,7 @@ SurfacePoint<double> ChannelSurface::evaluate(int face, int corner, double u, do
   if (data_->surface) return data_->surface->evaluate(face, corner, u, v, Derivatives::kFirst);
   const auto f = static_cast<std::size_t>(face);
   if (data_->rule != data::ChannelRule::kAll) return data_->by_steps(f, corner, u, v);
-  const data::Faces& faces = data_->mesh.topology.faces();
-  const auto first = data_->mesh.values.begin() + static_cast<std::ptrdiff_t>(faces.first_corner(f));
-  const std::vector<Vec3<double>> values(first, first + static_cast<std::ptrdiff_t>(faces[f].size()));
-  const std::vector<Vec3<double>> c = linear_corners(values, data_->is_loop(), corner);
+  const std::vector<Vec3<double>> c = linear_corners(data_->mesh, data_->is_loop(), f, corner);
   const Vec3<double> along = c[1] - c[0], across = c.back() - c[0];
   const Vec3<double> twist = data_->is_loop() ? Vec3<double>{} : c[2] - c[1] - across;
   SurfacePoint<double> point{};

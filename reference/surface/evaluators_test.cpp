@@ -195,7 +195,7 @@ std::vector<int> faces_of_the_hub(const data::ControlMesh& mesh) {
 }
 
 // Derivatives of order d grow like (2^d mu)^J towards the corner, mu the largest eigenvalue below 1
-// (two_ring_modes.h): of those that exist what is left falls like the next eigenvalue, the others grow at
+// (two_ring.h): of those that exist what is left falls like the next eigenvalue, the others grow at
 // this rate.
 TEST(Evaluators, DerivativesAtExtraordinaryCornersAreWhatTheyTendToOrDoNotExist) {
   struct Corner {

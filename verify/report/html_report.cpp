@@ -15,6 +15,7 @@
 
 #include "verify/evidence/evidence.h"
 #include "verify/report/forms.h"
+#include "verify/report/json.h"
 #include "verify/row/bounds.h"
 #include "verify/row/commands.h"
 #include "verify/subject/weights_option.h"
@@ -112,18 +113,10 @@ std::string to_html(const Report& report, const std::vector<Cause>& causes,
     data["matrix"].push_back(std::move(row));
   }
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    const Cause& c = causes[k];
-    data["causes"].push_back({{"who", c.who},
-                              {"severity", c.severity()},
-                              {"title", c.title},
-                              {"subjects", c.subjects},
-                              {"look", c.look},
-                              {"consequences", c.consequences},
-                              {"cases", c.cases},
-                              {"of", c.of},
-                              {"mesh", case_name(report, report.results[c.example])},
-                              {"command", command_for(report, c, level)},
-                              {"shape", shape_json(k < shapes.size() ? shapes[k] : std::nullopt)}});
+    Json c = cause_json(report, causes[k], static_cast<int>(k) + 1, level);
+    c["mesh"] = case_name(report, report.results[causes[k].example]);
+    c["shape"] = shape_json(k < shapes.size() ? shapes[k] : std::nullopt);
+    data["causes"].push_back(std::move(c));
   }
   std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   // Nothing in it ends the script element.

@@ -108,32 +108,6 @@ Ordered changes(const Report& report) {
           {"gone", c.gone},         {"same", c.same},    {"named", c.named}};
 }
 
-// The causes, and for each row the number of its cause.
-Ordered causes_json(const Report& report, const std::string& level, std::vector<int>& cause_of) {
-  Ordered list = Ordered::array();
-  for (const Cause& c : causes(report)) {
-    const int number = static_cast<int>(list.size()) + 1;
-    for (const std::size_t k : c.rows) cause_of[k] = number;
-    const Result& example = report.results[c.example];
-    list.push_back({{"number", number},
-                    {"who", c.who},
-                    {"kind", word(c.kind)},
-                    {"severity", c.severity()},
-                    {"title", c.title},
-                    {"look", shown(c.look)},
-                    {"subjects", c.subjects},
-                    {"cases", c.cases},
-                    {"of", c.of},
-                    {"rows", c.rows.size()},
-                    {"consequences", c.consequences},
-                    {"mesh", example.mesh},
-                    {"depth", example.depth},
-                    {"depths", shown(example.depths)},
-                    {"command", shown(command_for(report, c, level))}});
-  }
-  return list;
-}
-
 // With the commands that show its witness.
 Ordered row_json(const Result& r, int cause, const std::string& level) {
   Ordered row = shown(r), witness = std::move(row["witness"]);
@@ -149,6 +123,25 @@ Ordered row_json(const Result& r, int cause, const std::string& level) {
 }
 
 }  // namespace
+
+Ordered cause_json(const Report& report, const Cause& c, int number, const std::string& level) {
+  const Result& example = report.results[c.example];
+  return {{"number", number},
+          {"who", c.who},
+          {"kind", word(c.kind)},
+          {"severity", c.severity()},
+          {"title", c.title},
+          {"look", shown(c.look)},
+          {"subjects", c.subjects},
+          {"cases", c.cases},
+          {"of", c.of},
+          {"rows", c.rows.size()},
+          {"consequences", c.consequences},
+          {"mesh", example.mesh},
+          {"depth", example.depth},
+          {"depths", shown(example.depths)},
+          {"command", shown(command_for(report, c, level))}};
+}
 
 Ordered numbers(const std::vector<double>& list) {
   if (list.empty()) return nullptr;
@@ -206,7 +199,12 @@ std::string to_json(const Report& report, const std::string& level, bool all_row
   out["meshes"] = Ordered::array();
   for (const Report::Mesh& m : report.meshes) out["meshes"].push_back(shown(m));
   std::vector<int> cause_of(report.results.size(), -1);
-  out["causes"] = causes_json(report, level, cause_of);
+  out["causes"] = Ordered::array();
+  for (const Cause& c : causes(report)) {
+    const int number = static_cast<int>(out["causes"].size()) + 1;
+    for (const std::size_t k : c.rows) cause_of[k] = number;
+    out["causes"].push_back(cause_json(report, c, number, level));
+  }
   out["results"] = Ordered::array();
   const std::vector<bool> full =
       all_rows ? std::vector<bool>(report.results.size(), true) : rows_in_full(report);

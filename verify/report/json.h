@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/row/result.h"
+#include "verify/causes/causes.h"
 
 namespace limitcheck::verify {
 
@@ -29,6 +29,9 @@ std::vector<bool> rows_in_full(const Report& report);
 nlohmann::ordered_json in_short(const Report& report, const std::vector<bool>& full);
 /// The findings that a report has in short; none if it has all rows. Throws as reported_row().
 std::vector<Result> rows_in_short(const nlohmann::json& report);
+/// One of its `causes`.
+nlohmann::ordered_json cause_json(const Report& report, const Cause& cause, int number,
+                                  const std::string& level);
 /// A row of `results` again, as far as it has it: what is missing is as in an empty row. Throws
 /// nlohmann::json::exception: a value is of another type; data::ArgumentError: a word means nothing.
 Result reported_row(const nlohmann::json& row);

@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/causes/causes.h"
 #include "verify/report/json.h"
 #include "verify/row/fields.h"
 

@@ -4,6 +4,7 @@
 
 #include <flint/nmod_vec.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/operators.hpp>
 #include <concepts>
@@ -76,19 +77,13 @@ struct Surd : boost::ordered_field_operators<Surd> {
       : a(std::move(rational)), b(std::move(root)) {}
   /// cos(2 pi p / q); unknown if it is neither rational nor a multiple of sqrt(3).
   static Surd cosine(std::int64_t p, std::int64_t q) {
-    using T = reference::NumberTraits<reference::Rational>;
-    Surd result;
-    if (12 * p % q != 0) {
-      result.known = false;
-      return result;
-    }
-    const std::int64_t twelfths = (12 * p / q % 12 + 12) % 12;
-    if (twelfths % 2 == 0 || twelfths % 3 == 0) {
-      result.a = T::cos_pi(2 * p, q);
-    } else {
-      result.b = reference::Rational(twelfths == 1 || twelfths == 11 ? 1 : -1, 2);
-    }
-    return result;
+    static const reference::Rational none, half(1, 2);
+    static const std::array<Surd, 4> twelfths{Surd(1), Surd(none, half), Surd(half), Surd(0)};
+    Surd unknown;
+    unknown.known = false;
+    if (12 * p % q != 0) return unknown;
+    const auto turn = static_cast<std::size_t>((12 * p / q % 12 + 12) % 12), t = std::min(turn, 12 - turn);
+    return t <= 3 ? twelfths[t] : -twelfths[6 - t];
   }
 
   double approximation() const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace limitcheck::verify {
 namespace {
@@ -65,18 +66,8 @@ void BoxTree::build(const std::vector<Box>& boxes, std::int32_t begin, std::int3
 }
 
 void BoxTree::near(const Vector& p, const std::function<double(std::size_t)>& visit) const {
-  if (nodes_.empty()) return;
-  struct Waiting {
-    std::int32_t node;
-    double distance;  // squared
-  };
-  std::array<Waiting, 64> stack;  // the tree is balanced: 2^63 leaves would fit
-  int waiting = 0;
   double within = std::numeric_limits<double>::infinity();  // squared
-  stack[waiting++] = {0, squared_distance(p, nodes_[0].box)};
-  while (waiting > 0) {
-    const auto [at, distance] = stack[--waiting];
-    if (distance > within) continue;
+  const auto descend = [&](const auto& again, std::int32_t at) -> void {
     const Node& node = nodes_[at];
     if (node.right < 0) {
       for (std::int32_t k = node.begin; k < node.end; ++k) {
@@ -84,14 +75,15 @@ void BoxTree::near(const Vector& p, const std::function<double(std::size_t)>& vi
         const double bound = std::max(visit(order_[k]), 0.0);
         within = bound * bound;
       }
-      continue;
+      return;
     }
-    Waiting left{at + 1, squared_distance(p, nodes_[at + 1].box)};
-    Waiting right{node.right, squared_distance(p, nodes_[node.right].box)};
-    if (left.distance < right.distance) std::swap(left, right);
-    stack[waiting++] = left;  // the farther one
-    stack[waiting++] = right;
-  }
+    std::pair first{squared_distance(p, nodes_[node.right].box), node.right};
+    std::pair last{squared_distance(p, nodes_[at + 1].box), at + 1};
+    if (last.first < first.first) std::swap(first, last);
+    for (const auto& [distance, child] : {first, last})
+      if (distance <= within) again(again, child);
+  };
+  if (!nodes_.empty()) descend(descend, 0);
 }
 
 }  // namespace limitcheck::verify

@@ -144,10 +144,7 @@ class Mesh {
     std::vector<std::pair<const char*, Enclosed>> found;
     {
       const py::gil_scoped_release unlocked;
-      if (!certified_)
-        certified_ = scheme_ == data::Scheme::kLoop
-                         ? std::make_unique<reference::CertifiedEvaluator>(mesh_)
-                         : std::make_unique<reference::CertifiedEvaluator>(mesh_, scheme_);
+      if (!certified_) certified_ = std::make_unique<reference::CertifiedEvaluator>(mesh_, scheme_);
       const auto p = certified_->evaluate(face, corner, reference::Parameter::parse(u),
                                           reference::Parameter::parse(v), digits);
       const auto add = [&](const char* name, const reference::Enclosure3& e) {

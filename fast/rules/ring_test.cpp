@@ -10,7 +10,6 @@
 
 #include "fast/rules/limit.h"
 #include "fast/rules/quad_limit.h"
-#include "fast/rules/quad_limit_impl.h"
 #include "fast/rules/ring.h"
 #include "fast/rules/vertex_limit.h"
 #include "fast/test_support/refined_mesh.h"

@@ -10,6 +10,7 @@
 #include "reference/surface/channel.h"
 #include "verify/evidence/other_channel.h"
 #include "verify/files/checks/file_evidence.h"
+#include "verify/row/bounds.h"
 #include "verify/row/statistics.h"
 
 namespace limitcheck::verify {

@@ -309,19 +309,19 @@ std::string ProofReport::json() const {
 }
 
 template <class T>
-Json list_json(const std::vector<T>& values) {
+nlohmann::json list_json(const std::vector<T>& values) {
   return kept(values);
 }
-template Json list_json(const std::vector<ProofRow>&);
-template Json list_json(const std::vector<CertifiedLine>&);
+template nlohmann::json list_json(const std::vector<ProofRow>&);
+template nlohmann::json list_json(const std::vector<CertifiedLine>&);
 
 template <class T>
-std::vector<T> list_of(const Json& json) {
+std::vector<T> list_of(const nlohmann::json& json) {
   std::vector<T> list;
   read(json, list);
   return list;
 }
-template std::vector<ProofRow> list_of<ProofRow>(const Json&);
-template std::vector<CertifiedLine> list_of<CertifiedLine>(const Json&);
+template std::vector<ProofRow> list_of<ProofRow>(const nlohmann::json&);
+template std::vector<CertifiedLine> list_of<CertifiedLine>(const nlohmann::json&);
 
 }  // namespace limitcheck::verify

@@ -16,8 +16,8 @@
 #include "data/splitmix64.h"
 #include "data/validate.h"
 #include "verify/evidence/cells.h"
-#include "verify/evidence/lattice.h"
 #include "verify/host/host.h"
+#include "verify/subject/lattice.h"
 #include "verify/subject/lent_mesh.h"
 
 namespace limitcheck::verify {

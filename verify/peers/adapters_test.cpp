@@ -141,8 +141,8 @@ const std::vector<Subject>& subjects(Scheme scheme) {
       {"opensubdiv-far-patches", "", never, never},
       {"opensubdiv-far-patches", "precision=double,level=4,end-cap=bspline", never, never},
       {"opensubdiv-far-patches", "precision=double,level=4,corners=smooth", always, never},
-      {"opensubdiv-gl", "level=4,corners=smooth", always, never},
-      {"opensubdiv-gl", "path=patches,evaluator=xfb,level=4,corners=smooth", always, never},
+      {"opensubdiv-gl", "level=4", closed, never},
+      {"opensubdiv-gl", "path=patches,evaluator=xfb,level=4", closed, never},
       {"cgal", "", always, never},
       {"openmesh", "", always, never},
       {"vtk", "", always, never}};
@@ -156,8 +156,8 @@ const std::vector<Subject>& subjects(Scheme scheme) {
       {"opensubdiv-far-patches", "precision=double,level=4,corners=smooth", always, regular},
       {"opensubdiv-far-patches", "precision=double,level=4,corners=smooth,evaluate=limit-stencils", always,
        regular},
-      {"opensubdiv-gl", "level=4,corners=smooth", always, regular},
-      {"opensubdiv-gl", "path=patches,evaluator=xfb,level=4,corners=smooth", always, regular},
+      {"opensubdiv-gl", "level=4", closed, never},
+      {"opensubdiv-gl", "path=patches,evaluator=xfb,level=4", closed, never},
       {"cgal", "", always, never},
       {"openmesh", "", closed, never},
       {"embree", "", for_embree, for_embree_tangents}};

@@ -108,7 +108,7 @@ struct ProofSet {
   int certified_points = 12;
 };
 
-/// The groups of topologies, each with its arithmetics and depths, stand in the tables of proof_set.cpp.
+/// The groups of topologies, each with its kinds of arithmetic and depths, stand in the tables of proof_set.cpp.
 ProofSet proof_set(const ProofRequest& request);
 
 struct ProofProgress {

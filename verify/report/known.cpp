@@ -340,7 +340,7 @@ void compare_with_baseline(Report& report, const std::string& text, const std::s
   const bool is_text = text.starts_with(kTitle);
   const Comparison c = is_text ? compare(report, baseline_sums(text, file), on_other_devices(report, text))
                                : compare(report, reported_rows(text, file));
-  Report::Changes& changes = report.changes.emplace();
+  Report::Changes& changes = *(report.changes = Report::Changes{});
   changes.baseline = file;
   changes.same = c.same;
   changes.before = c.before;

@@ -135,7 +135,7 @@ class UnusualSubject : public testing::TestWithParam<std::string> {};
 TEST_P(UnusualSubject, IsNotBlamedForWhatItDoesToItsProcess) {
   IsolationSettings settings{.worker = LIMITCHECK_PROGRAM};
   const RemoteSubject remote(RemoteSubject::Kind::kBuiltIn, "unusual", settings);
-  expect_no_finding({{&remote.subject(), options_of(GetParam())}}, cases(200));
+  expect_no_finding({{&remote.subject(), options_of(GetParam())}}, cases(40));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAHabit, UnusualSubject, testing::ValuesIn(habits_of_the_process()),

@@ -92,12 +92,14 @@ class StarInspector {
  private:
   // Every neighbour w: how many triangles run v -> w, how many w -> v.
   void edges(std::int32_t v, std::span<const Ray> star, SurfaceReport& out) {
+    neighbours_.clear();
     std::size_t i = 0, j = 0;
     while (i < star.size() || j < by_previous_.size()) {
       const std::int32_t w =
           j == by_previous_.size() || (i < star.size() && star[i].next < by_previous_[j].previous)
               ? star[i].next
               : by_previous_[j].previous;
+      neighbours_.push_back(w);
       const std::size_t i0 = i, j0 = j;
       while (i < star.size() && star[i].next == w) ++i;
       while (j < by_previous_.size() && by_previous_[j].previous == w) ++j;
@@ -127,10 +129,6 @@ class StarInspector {
 
   // The number of fans: neighbours joined by the triangles of the star.
   std::int32_t fans(std::span<const Ray> star) {
-    neighbours_.clear();
-    for (const Ray& r : star) neighbours_.insert(neighbours_.end(), {r.next, r.previous});
-    std::sort(neighbours_.begin(), neighbours_.end());
-    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
     parent_.resize(neighbours_.size());
     std::iota(parent_.begin(), parent_.end(), 0);
     auto count = static_cast<std::int32_t>(neighbours_.size());
@@ -154,7 +152,7 @@ class StarInspector {
 
   std::vector<Ray> by_previous_;
   std::vector<std::array<std::int32_t, 3>> pairs_;
-  std::vector<std::int32_t> neighbours_, parent_;
+  std::vector<std::int32_t> neighbours_, parent_;  // of the star, ascending; of each in its tree
 };
 
 // Closed walks along the open edges, or -1 where a point has more than one of them leaving or none.

@@ -14,7 +14,7 @@ packages=(
   libflint-dev libflint-arb-dev                             # certified enclosures
   libtbb-dev libcli11-dev libfmt-dev nlohmann-json3-dev     # threads, command line, text, JSON
   libhwy-dev                                                # SIMD with dispatch at run time
-  libtinygltf-dev libassimp-dev                             # glTF output; the reader that checks it
+  libtinygltf-dev libassimp-dev                             # glTF input; the reader that checks what is written
   libmd-dev                                                 # digests of reports
   libgtest-dev libbenchmark-dev                             # tests, benchmarks
   dpkg-dev file                                             # the Debian package

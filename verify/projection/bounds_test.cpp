@@ -255,7 +255,7 @@ TEST(LimitSurface, HasThePointsAndDerivativesOfTheControlMesh) {
     const data::ControlMesh mesh = data::named_mesh(name);
     const data::Scheme scheme = data::natural_scheme(mesh);
     const LimitSurface surface(mesh, scheme);
-    const reference::Surface stam(mesh, scheme);
+    const reference::Surface whole(mesh, scheme);
     data::SplitMix64 random(1);
     for (int n = 0; n < 3000; ++n) {
       const auto face = static_cast<std::int32_t>(random.next() % surface.domain().face_count());
@@ -270,7 +270,7 @@ TEST(LimitSurface, HasThePointsAndDerivativesOfTheControlMesh) {
       const auto named = surface.control_point({face, at});
       const double half = named.corner < 0 && !surface.has_control_faces() ? .5 : 1;
       const auto is = surface.evaluate({face, at}, reference::Order::kSecond);
-      const auto want = stam.evaluate(named.face, std::max(named.corner, 0), named.first, named.second);
+      const auto want = whole.evaluate(named.face, std::max(named.corner, 0), named.first, named.second);
       const auto apart = [](const auto& a, const auto& b) {
         return norm(vector_of(a) - vector_of(b)) / std::max(1e-3, norm(vector_of(b)));
       };

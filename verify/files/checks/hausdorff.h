@@ -71,6 +71,7 @@ class TriangleTree {
   explicit TriangleTree(std::vector<std::array<Vector, 3>> triangles);
   /// Of a point from the nearest; infinite without triangles.
   double distance(const Vector& p) const;
+  const std::array<Vector, 3>& operator[](std::size_t k) const { return triangles_[k]; }
 
  private:
   std::vector<std::array<Vector, 3>> triangles_;
@@ -99,8 +100,8 @@ class Overlay {
   /// Both bounds, each with the place where it is taken. Of the surface over holes nobody expects triangles.
   Bound look(const Piece& piece, const std::vector<Over>& over) const;
 
-  /// The corners of a triangle.
-  const std::array<Vector, 3>& corners(std::int32_t triangle) const { return corners_[triangle]; }
+  /// The corners of a triangle, which are finite.
+  const std::array<Vector, 3>& corners(std::int32_t triangle) const { return (*finite_)[number_[triangle]]; }
   /// Triangles not wholly over one face, or over no part of it.
   const std::vector<std::int32_t>& loose() const { return loose_; }
   /// From a point to the nearest triangle, wherever it is; infinite without triangles.
@@ -111,9 +112,9 @@ class Overlay {
   void lay(std::int32_t triangle, const PlacedTriangle& placed);
 
   const FileEvidence& e_;
-  std::vector<std::vector<Over>> over_;         // of each face
-  std::vector<std::array<Vector, 3>> corners_;  // of each triangle
-  std::optional<TriangleTree> finite_;          // those with finite corners
+  std::vector<std::vector<Over>> over_;  // of each face
+  std::vector<std::int32_t> number_;     // of each triangle in finite_, if it is there
+  std::optional<TriangleTree> finite_;   // those with finite corners
   std::vector<std::int32_t> loose_;
 };
 

@@ -88,13 +88,13 @@ double TriangleTree::distance(const Vector& p) const {
 
 Overlay::Overlay(const FileEvidence& e) : e_(e), over_(e.surface.domain().face_count()) {
   const auto& list = e.tessellation.triangles;
-  corners_.resize(list.size());
+  number_.resize(list.size());
   std::vector<std::array<Vector, 3>> finite;
   for (std::size_t t = 0; t < list.size(); ++t) {
     const auto p = e.points_of(list[t]);
     if (std::min({p[0], p[1], p[2]}) < 0) continue;
-    corners_[t] = {e.position(p[0]), e.position(p[1]), e.position(p[2])};
-    finite.push_back(corners_[t]);
+    number_[t] = static_cast<std::int32_t>(finite.size());
+    finite.push_back({e.position(p[0]), e.position(p[1]), e.position(p[2])});
     if (is_collapsed(p)) continue;
     lay(static_cast<std::int32_t>(t), place_triangle(e, p));
   }
@@ -146,7 +146,7 @@ Bound Overlay::look(const Piece& piece, const std::vector<Over>& over) const {
     const Part part = clip(o.l, piece.at);
     if (part.size() < 3) continue;
     left -= area_of(part);
-    const auto& triangle = corners_[o.triangle];
+    const auto& triangle = corners(o.triangle);
     for (const Barycentric& u : part) {
       const Barycentric on_piece = within(piece.at, area, u), on_triangle = within(o.l, o_area, u);
       const Vector p = piece.flat(on_piece), t = mix(triangle, on_triangle);

@@ -20,8 +20,8 @@ flags=(-std=c++20 -I "$copy" -ffp-contract=off -MD)
 # What a finder is made of: a program or a test, and the sources that faults are planted in or that include them.
 declare -A sources=(
   [map]="verify/proof/test_source_fault.cpp verify/proof/maps/prove_map_residues.cpp"
-  [quads]="verify/proof/maps/map_test.cpp fast/mesh/adjacency.cpp fast/mesh/cut_mesh.cpp
-    fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp"
+  [quads]="verify/proof/maps/map_test.cpp verify/proof/maps/prove_map_exact.cpp verify/proof/maps/prove_map_digits.cpp
+    fast/mesh/adjacency.cpp fast/mesh/cut_mesh.cpp fast/rules/quad_limit.cpp fast/rules/semi_sharp.cpp"
   [shipped]="verify/proof/bounds/bounds_test.cpp verify/proof/bounds/shipped_kernels.cpp fast/stream/kernel/targets.cpp
     fast/stream/kernel/quad_targets.cpp fast/stream/gather/rings.cpp fast/rules/quad_limit.cpp"
   [bits]="fast/stream/host/row_stream_test.cpp fast/stream/gather/rings.cpp"

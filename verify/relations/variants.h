@@ -72,7 +72,7 @@ struct Relation {
   std::vector<Variant> variants(const Evidence& e) const;
 };
 
-/// From face-order to cut-by-hand, in the order of the table (relations.h says what each is). From crease-order on
+/// From face-order to cut-by-hand, in the order of the table (verify/row/rows.cpp says what each is). From crease-order on
 /// they need sharp edges or vertices.
 const std::vector<Relation>& surface_relations();
 

@@ -88,7 +88,9 @@ const std::vector<RowKind>& row_kinds() {
       {"t-vertices", "tiling", kSeams, "No vertex lies inside an edge of another triangle.", kNone,
        "exact predicates on the delivered coordinates"},
       {"determinism", "order", kOrder,
-       "The same request again, with 1, 2 and 4 threads, gives the same bits.", "No bit.", kRelation},
+       "The same request again, with 1, 2 and 4 threads, gives the same bits, and so does one of up to 8192 "
+       "triangles with 1 and 4.",
+       "No bit.", kRelation},
       {"face-order", "order", kOrder, "Faces handed over in another order.", kTwice, kRelation},
       {"vertex-order", "order", kOrder, "Control vertices numbered otherwise.", kTwice, kRelation},
       {"corner-rotation", "order", kOrder,
@@ -102,7 +104,8 @@ const std::vector<RowKind>& row_kinds() {
        "vanish in float.",
        kTwice, kRelation},
       {"translation", "order", kOrder,
-       "The mesh moved by a few diagonals. Positions only: rounding the input turns normals.",
+       "The mesh moved by a few diagonals, and by 2^20 times as many, in float 2^10. Positions only: "
+       "rounding the input turns normals.",
        "As for the others, with the larger coordinates.", kRelation},
       {"crease-order", "order", kOrder,
        "Sharp edges and vertices handed over in another order, edges from their other end.", kTwice,
@@ -138,7 +141,8 @@ const std::vector<RowKind>& row_kinds() {
        "A point of a vertex or edge, asked from each of its faces: the certified balls of its position meet, "
        "and on one side of edges that stay sharp those of normal and Gaussian curvature.",
        "They meet: `worst` is the distance of the centres over the sum of the radii.", kOracle},
-      {"oracle-double", "", kOrder, "Position and derivatives in double against the certificate.",
+      {"oracle-double", "", kOrder,
+       "Position and first derivatives in double against the certificate; both know of the same derivatives.",
        "What rounding may do: (steps + 2) (2 n + 8) u M, n faces at a vertex or corners of a face.", kOracle},
       {"oracle-parts", "", kOrder,
        "A certificate against that of the few faces which it depends on, and against the whole mesh, uncut, "

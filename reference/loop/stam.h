@@ -31,7 +31,9 @@ struct StamError {
   static constexpr double kPosition = 2;  ///< in ulp of the largest control coordinate
   /// d1, d2: the same, beside 2^-52 |d1| log2(1 / distance to the nearest extraordinary corner).
   static constexpr double kFirst = 8;
-  static constexpr double kNearCorner = 1e-13;  ///< position, d1, d2: relative, down to 1e-300 from a corner
+  /// Position, d1, d2: relative, down to 1e-300 from a corner. On the boundary itself, beside a vertex of four faces
+  /// and more, relative to the larger of d1 and d2, which outgrows the other one there.
+  static constexpr double kNearCorner = 1e-13;
   static constexpr double kNormal = 2e-15;  ///< unit normal, beside what the errors of d1 and d2 make of it
 };
 
@@ -42,7 +44,8 @@ struct StamError {
 ///   a point       near a vertex of few faces inside O(their number); of 65 and more, on the boundary, or held,
 ///                 O(J^2), where 2^-J is the distance from the vertex; near a dart of n faces O(J n)
 ///   threads       any number may evaluate at once
-///   error         in double StamError; second derivatives beyond 1e308 come out infinite
+///   error         in double StamError; second derivatives beyond 1e308 come out infinite, and so may others
+///                 nearer than 1e-307 to a vertex
 ///   parameters    l1, l2 >= 0, l1 + l2 <= 1.
 ///                 Corners, edges and every dyadic point are ordinary points.
 ///                 Two doubles whose rounded sum is 1 lie on the far edge.

@@ -162,13 +162,10 @@ class StamData {
     if constexpr (std::is_same_v<N, double>) {
       const StamData* level = this;
       for (; !level->mesh_.is_settled(at.quad); ++steps) {
-        const P half = P(1) / P(2);
-        const bool right = at.u > half, up = at.v > half;
         const bool at_corner = (at.u == 0 || at.u == 1) && (at.v == 0 || at.v == 1);
-        at.u = 2 * at.u - (right ? 1 : 0);
-        at.v = 2 * at.v - (up ? 1 : 0);
+        const int k = static_cast<int>(descend(at.u, at.v));
         level = &level->next_.descend(
-            at.quad, up ? (right ? 2 : 3) : (right ? 1 : 0), at_corner, *level->mesh_.tagged,
+            at.quad, k, at_corner, *level->mesh_.tagged,
             [](const TaggedMesh<N>& mesh) { return refine_once(mesh, data::TriangleRule::kCatmark); });
       }
       result = level->evaluate(at, order);

@@ -45,7 +45,7 @@ struct Cells {
 /// The control mesh refined `depth` times; `about` is where the control mesh is at its vertices. One thread may use it.
 struct RefinedComplex {
   ///   mesh    valid for the scheme
-  ///   depth   0 or more
+  ///   depth   0 .. 15
   RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int depth);
 
   /// Where the limit surface is at a vertex.

@@ -78,12 +78,12 @@ std::optional<double> LoopRules::alpha(int n) const {
   if (is("square_forgotten")) return 5. / 8 - s / 64;
   if (is("half_angle")) return 5. / 8 - s * s / 64;
   if (is("valence_one_less") && n > 3) return reference::loop_a<double>(n - 1);
-  if (is("weights_of_16")) return reference::loop_a<double>(std::min(n, 16));
-  if (is("weights_of_32")) return reference::loop_a<double>(std::min(n, 32));
+  if (is("weights_of_16") && n > 16) return reference::ring_weight<double>(16, weights_);
+  if (is("weights_of_32") && n > 32) return reference::ring_weight<double>(32, weights_);
   if (is("weight_at_infinity") && n >= 20) return 15. / 64;
   if (is("vertices_stay") || (is("weights_below_64") && n == 64) || (is("valence_in_8_bits") && n % 256 == 0))
     return 0;
-  if (is("weight_1e-6_at_valence_5") && n == 5) return reference::loop_a<double>(n) + 1e-6;
+  if (is("weight_1e-6_at_valence_5") && n == 5) return reference::ring_weight<double>(n, weights_) + 1e-6;
   return std::nullopt;
 }
 

@@ -78,7 +78,10 @@ struct At {
   std::size_t v;
   Place p;
   Vector& position() const { return out.positions[v]; }
-  Vector& normal() const { return out.normals[v]; }
+  Vector& normal() const {
+    if (out.normals.empty()) nowhere("normal");
+    return out.normals[v];
+  }
   std::size_t face() const { return Asked::face_of(p); }
   FaceDomain domain() const { return a.domain(face()); }
   std::int64_t steps() const { return a.steps(p); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The meshes of the model from level to level, and the limits of the vertices of the deepest.
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>

@@ -6,7 +6,6 @@
 
 #include <dlfcn.h>
 #include <fmt/core.h>
-#include <malloc.h>
 #include <sys/time.h>
 #include <ucontext.h>
 #include <algorithm>
@@ -28,7 +27,6 @@
 #include "data/test_support/assertions.h"
 #include "fast/stream/kernel/targets.h"
 #include "fast/stream/row_stream.h"
-#include "verify/host/host.h"
 #include "verify/shared_bits/test_support/shared_bits.h"
 #include "verify/subject/lent_mesh.h"
 #include "verify/subject/registry.h"

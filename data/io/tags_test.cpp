@@ -27,7 +27,7 @@ ControlMesh read_cube(const std::string& tags) {
 }
 
 // "CODE:line" of the error, or "read".
-std::string error_of(const std::string& tags) {
+std::string error_of_tags(const std::string& tags) {
   const auto error = thrown<InputError>([&] { read_cube(tags); });
   return error ? error->code() + ":" + std::to_string(error->line()) : "read";
 }
@@ -53,7 +53,7 @@ TEST(Tags, OfObjHaveFractions) {
   EXPECT_EQ(mesh.sharpness.edges.at(0).sharpness, 2.3F);
   EXPECT_EQ(mesh.sharpness.vertices.at(0).sharpness, 1.F / 3);
   for (const char* wrong : {"1/0", "1/", "/2", "1/-2", "1/2/3", "x"})
-    EXPECT_EQ(error_of(std::string("t corner 1/1/0 0 ") + wrong + "\n"), "FILE_SYNTAX:15") << wrong;
+    EXPECT_EQ(error_of_tags(std::string("t corner 1/1/0 0 ") + wrong + "\n"), "FILE_SYNTAX:15") << wrong;
 }
 
 TEST(Tags, OfObjHaveHoles) {
@@ -63,8 +63,8 @@ TEST(Tags, OfObjHaveHoles) {
   EXPECT_EQ(read_mesh(mesh_content(mesh, FileFormat::kObj), FileFormat::kObj, "again.obj"), mesh);
   EXPECT_THROW(mesh_content(mesh, FileFormat::kPly), InputError);
   EXPECT_THROW(mesh_content(mesh, FileFormat::kOff), InputError);
-  EXPECT_EQ(error_of("t hole 1/0/0 6\n"), "MESH_HOLE:15");
-  EXPECT_EQ(error_of("t hole 1/0/0 -1\n"), "MESH_HOLE:15");
+  EXPECT_EQ(error_of_tags("t hole 1/0/0 6\n"), "MESH_HOLE:15");
+  EXPECT_EQ(error_of_tags("t hole 1/0/0 -1\n"), "MESH_HOLE:15");
   // Both triangles of a quad that is cut.
   const auto cut =
       read_mesh(kCube + "t hole 1/0/0 2\n", FileFormat::kObj, "cube.obj", {.polygons = Triangulation::kFan});
@@ -75,20 +75,20 @@ TEST(Tags, OfObjHaveHoles) {
 }
 
 TEST(Tags, ThatAreWrongAreNamedWithTheirLine) {
-  EXPECT_EQ(error_of("t crease 2/1/0 4 6 2\n"), "MESH_SHARPNESS:15");  // a diagonal
-  EXPECT_EQ(error_of("t crease 2/1/0 4 8 2\n"), "MESH_SHARPNESS:15");  // no vertex
-  EXPECT_EQ(error_of("t crease 2/1/0 4 5 2\nt crease 2/1/0 5 4 3\n"), "MESH_SHARPNESS:16");
-  EXPECT_EQ(error_of("t crease 2/1/0 4 5 2\nt crease 2/1/0 5 4 2\n"), "read");
-  EXPECT_EQ(error_of("t crease 2/1/0 4 5 -1\n"), "MESH_SHARPNESS:15");
-  EXPECT_EQ(error_of("t crease 2/1/0 4 5 nan\n"), "MESH_SHARPNESS:15");
-  EXPECT_EQ(error_of("t corner 1/1/0 8 1\n"), "MESH_SHARPNESS:15");
-  EXPECT_EQ(error_of("t corner 1/1/0 4 1\nt corner 1/1/0 4 2\n"), "MESH_SHARPNESS:16");
-  EXPECT_EQ(error_of("t crease 2/1/0 4 5\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of("t crease 2/1 4 5 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of("t crease 3/1/0 4 5 6 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of("t crease 2/1/0 -1 5 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of("t interpolateboundary 1/0/0 3\n"), "FILE_UNSUPPORTED:15");
-  EXPECT_EQ(error_of("t creasemethod 0/0/1 soft\n"), "FILE_UNSUPPORTED:15");
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 6 2\n"), "MESH_SHARPNESS:15");  // a diagonal
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 8 2\n"), "MESH_SHARPNESS:15");  // no vertex
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 2\nt crease 2/1/0 5 4 3\n"), "MESH_SHARPNESS:16");
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 2\nt crease 2/1/0 5 4 2\n"), "read");
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 -1\n"), "MESH_SHARPNESS:15");
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 nan\n"), "MESH_SHARPNESS:15");
+  EXPECT_EQ(error_of_tags("t corner 1/1/0 8 1\n"), "MESH_SHARPNESS:15");
+  EXPECT_EQ(error_of_tags("t corner 1/1/0 4 1\nt corner 1/1/0 4 2\n"), "MESH_SHARPNESS:16");
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5\n"), "FILE_SYNTAX:15");
+  EXPECT_EQ(error_of_tags("t crease 2/1 4 5 1\n"), "FILE_SYNTAX:15");
+  EXPECT_EQ(error_of_tags("t crease 3/1/0 4 5 6 1\n"), "FILE_SYNTAX:15");
+  EXPECT_EQ(error_of_tags("t crease 2/1/0 -1 5 1\n"), "FILE_SYNTAX:15");
+  EXPECT_EQ(error_of_tags("t interpolateboundary 1/0/0 3\n"), "FILE_UNSUPPORTED:15");
+  EXPECT_EQ(error_of_tags("t creasemethod 0/0/1 soft\n"), "FILE_UNSUPPORTED:15");
 }
 
 // Of what moves no point nothing is lost; what does is refused by its name.
@@ -102,14 +102,14 @@ TEST(Tags, WithoutAMeaningAreReadOverWithANoteAndEditsAreRefused) {
   }
   for (const std::string edit : {"vertexedit", "edgeedit", "faceedit"}) {
     const std::string tag = "t " + edit + " 2/1/3 4 0 1 add value sharpness\n";
-    EXPECT_TRUE(error_of(tag).starts_with("FILE_UNSUPPORTED:")) << edit;
+    EXPECT_TRUE(error_of_tags(tag).starts_with("FILE_UNSUPPORTED:")) << edit;
     EXPECT_TRUE(says(refusal_of<InputError>([&] { read_cube(tag); }), edit + "\" is a hierarchical edit"));
   }
-  EXPECT_EQ(error_of("t unheardof 1/0/0 1\n"), "FILE_UNSUPPORTED:15");
+  EXPECT_EQ(error_of_tags("t unheardof 1/0/0 1\n"), "FILE_UNSUPPORTED:15");
 }
 
 // A sheet of 4 x 4 squares, or of 32 triangles, with its corner (0, 0) at vertex 0.
-std::string sheet(bool triangles) {
+std::string text_of_sheet(bool triangles) {
   std::string text;
   for (int j = 0; j < 5; ++j)
     for (int i = 0; i < 5; ++i) text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\n";
@@ -127,7 +127,7 @@ std::string sheet(bool triangles) {
 TEST(Tags, FacesBesideABoundaryThatIsNotInterpolatedAreHoles) {
   for (const bool triangles : {false, true}) {
     const auto read = [&](const std::string& tags) {
-      return read_mesh(sheet(triangles) + tags, FileFormat::kObj, "sheet.obj");
+      return read_mesh(text_of_sheet(triangles) + tags, FileFormat::kObj, "sheet.obj");
     };
     const ControlMesh none = read("t interpolateboundary 1/0/0 0\n");
     const auto is_hole = [&](const ControlMesh& mesh, int i, int j) {

@@ -17,11 +17,11 @@ const std::string kSquares =
 std::string mesh_of(const std::string& more, const std::string& body = kSquares) {
   return "def Mesh \"m\" {\n" + body + more + "\n}\n";
 }
-ControlMesh read(const std::string& text) {
+ControlMesh read_usda(const std::string& text) {
   return read_mesh("#usda 1.0\n" + text, FileFormat::kUsda, "m.usda");
 }
-std::string error_of(const std::string& text) {
-  const auto error = thrown<InputError>([&] { (void)read(text); });
+std::string error_of_usda(const std::string& text) {
+  const auto error = thrown<InputError>([&] { (void)read_usda(text); });
   return error ? error->code() + ":" + std::to_string(error->line()) : "read";
 }
 
@@ -37,7 +37,7 @@ TEST(Usda, IsTheMeshOfTheSameFileInObj) {
 }
 
 TEST(Usda, MeansWhatUsdMeansWhereItSaysNothing) {
-  EXPECT_EQ(read(mesh_of("")).sharpness.boundary, Boundary::kEdgeAndCorner);
+  EXPECT_EQ(read_usda(mesh_of("")).sharpness.boundary, Boundary::kEdgeAndCorner);
   const std::string triangle =
       "  point3f[] points = [(0,0,0), (1,0,0), (0,1,0)]\n  int[] faceVertexCounts = [3]\n  int[] "
       "faceVertexIndices = [0,1,2]\n";
@@ -53,7 +53,7 @@ TEST(Usda, MeansWhatUsdMeansWhereItSaysNothing) {
 }
 
 TEST(Usda, HasCornersHolesSharpnessByEdgeAndLeftHandedFaces) {
-  const ControlMesh mesh = read(mesh_of(
+  const ControlMesh mesh = read_usda(mesh_of(
       "int[] creaseIndices = [0, 1, 4, 1, 2]\nint[] creaseLengths = [3, 2]\nfloat[] creaseSharpnesses = [1, "
       "2, 3]\n"
       "int[] cornerIndices = [2]\nfloat[] cornerSharpnesses = [10]\nint[] holeIndices = [1]\n"
@@ -67,11 +67,11 @@ TEST(Usda, HasCornersHolesSharpnessByEdgeAndLeftHandedFaces) {
 }
 
 TEST(Usda, MeshesOfAFileAreOneAndMustAgree) {
-  const ControlMesh two = read(mesh_of("") + mesh_of("int[] holeIndices = [0]"));
+  const ControlMesh two = read_usda(mesh_of("") + mesh_of("int[] holeIndices = [0]"));
   EXPECT_EQ(two.positions.size(), 12U);
   EXPECT_EQ(two.faces, (Faces{{0, 1, 2, 3}, {1, 4, 5, 2}, {6, 7, 8, 9}, {7, 10, 11, 8}}));
   EXPECT_EQ(two.holes, (std::vector<std::int32_t>{2}));
-  EXPECT_EQ(error_of(mesh_of("") + mesh_of("uniform token interpolateBoundary = \"edgeOnly\"")),
+  EXPECT_EQ(error_of_usda(mesh_of("") + mesh_of("uniform token interpolateBoundary = \"edgeOnly\"")),
             "FILE_UNSUPPORTED:8");
 }
 
@@ -79,9 +79,9 @@ TEST(Usda, NoIndexReachesIntoAnotherMesh) {
   const std::string beyond =
       "  point3f[] points = [(0,0,0), (1,0,0), (0,1,0)]\n  int[] faceVertexCounts = [3]\n  int[] "
       "faceVertexIndices = [0,1,3]\n";
-  EXPECT_EQ(error_of(mesh_of("", beyond) + mesh_of("")), "MESH_INDEX_OUT_OF_RANGE:5");
-  EXPECT_EQ(error_of(mesh_of("") + mesh_of("int[] holeIndices = [-1]")), "MESH_HOLE:12");
-  EXPECT_EQ(error_of(mesh_of("int[] cornerIndices = [6]\nfloat[] cornerSharpnesses = [1]") + mesh_of("")),
+  EXPECT_EQ(error_of_usda(mesh_of("", beyond) + mesh_of("")), "MESH_INDEX_OUT_OF_RANGE:5");
+  EXPECT_EQ(error_of_usda(mesh_of("") + mesh_of("int[] holeIndices = [-1]")), "MESH_HOLE:12");
+  EXPECT_EQ(error_of_usda(mesh_of("int[] cornerIndices = [6]\nfloat[] cornerSharpnesses = [1]") + mesh_of("")),
             "MESH_SHARPNESS:6");
 }
 
@@ -98,27 +98,27 @@ TEST(Usda, WhatIsNotUnderstoodIsNamed) {
 }
 
 TEST(Usda, FaultsAreNamedWithTheirLine) {
-  EXPECT_EQ(error_of(mesh_of(
+  EXPECT_EQ(error_of_usda(mesh_of(
                 "int[] creaseIndices = [0, 1]\nint[] creaseLengths = [3]\nfloat[] creaseSharpnesses = [1]")),
             "FILE_SYNTAX:7");
-  EXPECT_EQ(error_of(mesh_of("int[] cornerIndices = [0]")), "FILE_SYNTAX:6");
-  EXPECT_EQ(error_of(mesh_of("int[] holeIndices = [2]")), "MESH_HOLE:6");
-  EXPECT_EQ(error_of(mesh_of("int[] holeIndices = [0.5]")), "FILE_SYNTAX:6");
-  EXPECT_EQ(error_of(mesh_of("uniform token subdivisionScheme = \"bilinear\"")), "FILE_UNSUPPORTED:6");
-  EXPECT_EQ(error_of(mesh_of("int[] faceVertexCounts = [3]")), "FILE_SYNTAX:6");
-  EXPECT_EQ(error_of("def Mesh \"m\" { }"), "FILE_UNSUPPORTED:2");
-  EXPECT_EQ(error_of("def Mesh \"m\" {"), "FILE_TRUNCATED:2");
-  EXPECT_EQ(error_of("def Mesh \"m"), "FILE_TRUNCATED:2");
-  EXPECT_EQ(error_of("def Mesh \"m\" { int a"), "FILE_TRUNCATED:2");
-  EXPECT_EQ(error_of("def Mesh \"m\" { int a ="), "FILE_TRUNCATED:2");
-  EXPECT_EQ(error_of("def Mesh \"m\" { = 3 }"), "FILE_UNSUPPORTED:2");
-  EXPECT_EQ(error_of("(\"\"\"\\"), "FILE_TRUNCATED:2");
-  EXPECT_EQ(error_of("(\"\\\"\")\n nonsense"), "FILE_SYNTAX:3");
-  EXPECT_EQ(error_of("nonsense"), "FILE_SYNTAX:2");
+  EXPECT_EQ(error_of_usda(mesh_of("int[] cornerIndices = [0]")), "FILE_SYNTAX:6");
+  EXPECT_EQ(error_of_usda(mesh_of("int[] holeIndices = [2]")), "MESH_HOLE:6");
+  EXPECT_EQ(error_of_usda(mesh_of("int[] holeIndices = [0.5]")), "FILE_SYNTAX:6");
+  EXPECT_EQ(error_of_usda(mesh_of("uniform token subdivisionScheme = \"bilinear\"")), "FILE_UNSUPPORTED:6");
+  EXPECT_EQ(error_of_usda(mesh_of("int[] faceVertexCounts = [3]")), "FILE_SYNTAX:6");
+  EXPECT_EQ(error_of_usda("def Mesh \"m\" { }"), "FILE_UNSUPPORTED:2");
+  EXPECT_EQ(error_of_usda("def Mesh \"m\" {"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of_usda("def Mesh \"m"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of_usda("def Mesh \"m\" { int a"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of_usda("def Mesh \"m\" { int a ="), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of_usda("def Mesh \"m\" { = 3 }"), "FILE_UNSUPPORTED:2");
+  EXPECT_EQ(error_of_usda("(\"\"\"\\"), "FILE_TRUNCATED:2");
+  EXPECT_EQ(error_of_usda("(\"\\\"\")\n nonsense"), "FILE_SYNTAX:3");
+  EXPECT_EQ(error_of_usda("nonsense"), "FILE_SYNTAX:2");
   std::string deep;
   for (int k = 0; k < 100000; ++k) deep += "def Xform \"x\" { ";
-  EXPECT_EQ(error_of(deep), "FILE_UNSUPPORTED:2");
-  EXPECT_EQ(error_of("def Xform \"x\" { int a = " + std::string(100000, '[')), "FILE_UNSUPPORTED:2");
+  EXPECT_EQ(error_of_usda(deep), "FILE_UNSUPPORTED:2");
+  EXPECT_EQ(error_of_usda("def Xform \"x\" { int a = " + std::string(100000, '[')), "FILE_UNSUPPORTED:2");
 }
 
 }  // namespace

@@ -21,11 +21,11 @@
 namespace limitcheck::verify {
 namespace {
 
-const char* const kMeshes[] = {"bumpy:800", "holes",    "ragged-disc", "wheel:50",
+const char* const kSampledMeshes[] = {"bumpy:800", "holes",    "ragged-disc", "wheel:50",
                                "torus",     "random:3", "random:4",    "tetrahedron"};
 
 TEST(MeshSample, IsAValidMeshWithAtLeastTheFacesAskedFor) {
-  for (const char* name : kMeshes)
+  for (const char* name : kSampledMeshes)
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
       for (const std::size_t faces : {1U, 10U, 100U, 100000U}) {
         const data::ControlMesh whole = data::named_mesh(name);
@@ -61,7 +61,7 @@ double apart(const data::ControlMesh& whole, const MeshSample& sample) {
 constexpr double kRoundings = 64 * 0x1p-53 * 8;
 
 TEST(MeshSample, HasTheSurfaceOfTheWholeOverItsPatches) {
-  for (const char* name : kMeshes) {
+  for (const char* name : kSampledMeshes) {
     const data::ControlMesh whole = data::named_mesh(name);
     const double worst = apart(whole, MeshSample(whole, 20, 7));
     EXPECT_LE(worst, kRoundings) << name;

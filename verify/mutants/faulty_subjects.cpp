@@ -19,7 +19,7 @@
 namespace limitcheck::verify {
 namespace {
 
-using Depths = std::vector<std::int32_t>;
+using FaceDepths = std::vector<std::int32_t>;
 
 constexpr const char *kFault = "fault", *kHabit = "habit";
 
@@ -166,7 +166,7 @@ class ChangedSubject {
 
   // What the sound subject delivers for this request, changed.
   Delivered changed(const lc_request& request) {
-    Depths depth(request.face_depth, request.face_depth + mesh_.faces.size());
+    FaceDepths depth(request.face_depth, request.face_depth + mesh_.faces.size());
     Asked asked(mesh_, scheme_, std::max(0, *std::max_element(depth.begin(), depth.end())));
     asked.threads = request.threads;
     asked.call = ++calls_, asked.call_of_all = ++Memory::calls;
@@ -176,7 +176,7 @@ class ChangedSubject {
     asked.first_as_deep = first_as_deep_.try_emplace(asked.deepest, depth).first->second;
     if (calls_ == 1) first_depths_ = depth;
     asked.first_depths = first_depths_;
-    asked.again = [&](const data::ControlMesh& mesh, const Depths& depths) {
+    asked.again = [&](const data::ControlMesh& mesh, const FaceDepths& depths) {
       return Delivered(session(mesh)->tessellate(depths, request.threads));
     };
     if (change().ask) change().ask(asked, depth);
@@ -238,8 +238,8 @@ class ChangedSubject {
   const Memory memory_;
   std::unique_ptr<Session> session_;
   int calls_ = 0;
-  Depths first_depths_;
-  std::map<int, Depths> first_as_deep_;
+  FaceDepths first_depths_;
+  std::map<int, FaceDepths> first_as_deep_;
   std::vector<unsigned char> elsewhere_;
 };
 

@@ -74,21 +74,21 @@ Change one_ulp(const char* name, const char* description, const char* check, std
   });
 }
 
-using V = std::int32_t;
+using VertexId = std::int32_t;
 using F = std::size_t;
 
 // At control vertices.
-Change off(std::string name, std::string description, std::function<bool(A, V)> vertex,
+Change off(std::string name, std::string description, std::function<bool(A, VertexId)> vertex,
            const char* check = "positions") {
   const auto is_off = [vertex](A a, const Place& p) {
-    const V at = a.control_vertex(p);
+    const VertexId at = a.control_vertex(p);
     return at >= 0 && vertex(a, at);
   };
   Change c = on(On::kBoth, moved(std::move(name), std::move(description), is_off, check));
   if (c.check == "positions")
     c.shows = [vertex](A a) {
       const auto all = a.mesh.faces.corners();
-      return std::any_of(all.begin(), all.end(), [&](V v) { return vertex(a, v); });
+      return std::any_of(all.begin(), all.end(), [&](VertexId v) { return vertex(a, v); });
     };
   return c;
 }
@@ -200,17 +200,17 @@ std::vector<Change> faults_of_rare_places() {
   };
   std::vector<Change> all{
       sharp(off("crease_above_6", "vertices of creases with more than six faces are off",
-                [](A a, V v) { return a.on_inner_crease(v) && a.faces(v) > 6; })),
+                [](A a, VertexId v) { return a.on_inner_crease(v) && a.faces(v) > 6; })),
       sharp(off("side_of_three_faces", "vertices of creases with three faces on a side are off",
-                [](A a, V v) { return a.faces_of_side(v) == 3 || a.faces(v) - a.faces_of_side(v) == 3; })),
+                [](A a, VertexId v) { return a.faces_of_side(v) == 3 || a.faces(v) - a.faces_of_side(v) == 3; })),
       sharp(off("corner_of_4_edges", "vertices where four creases meet are off",
-                [](A a, V v) { return a.inside(v) && a.infinite[v] == 4; })),
+                [](A a, VertexId v) { return a.inside(v) && a.infinite[v] == 4; })),
       sharp(off("dart_above_6", "ends of creases amid more than six faces are off",
-                [](A a, V v) { return amid_more(a, v, 6) && a.infinite[v] == 1; })),
+                [](A a, VertexId v) { return amid_more(a, v, 6) && a.infinite[v] == 1; })),
       sharp(off("crease_to_the_boundary", "vertices where a crease meets the boundary are off",
-                [](A a, V v) { return !a.inside(v) && a.infinite[v] > 2; })),
+                [](A a, VertexId v) { return !a.inside(v) && a.infinite[v] > 2; })),
       off("boundary_above_6", "boundary vertices of more than six faces are off",
-          [](A a, V v) { return !a.inside(v) && a.faces(v) > 6; }),
+          [](A a, VertexId v) { return !a.inside(v) && a.faces(v) > 6; }),
       inside("second_component_off", "the inside of faces of the second component is off",
              [](A a, F f) { return a.component[a.mesh.faces[f][0]] == 1; }),
       inside("genus_2_off", "the inside of faces of a surface of genus 2 is off",
@@ -236,27 +236,27 @@ std::vector<Change> faults_of_rare_places() {
                         [](A a, Depths d) { d = a.first_as_deep; })),
       off(
           "tables_of_the_first", "tables end at the largest valence of the first mesh",
-          [](A a, V v) { return a.faces(v) > a.first_most; }, "state"),
+          [](A a, VertexId v) { return a.faces(v) > a.first_most; }, "state"),
       off(
           "tables_of_a_large_first",
           "after a first mesh with hubs, vertices amid less than six faces are off",
-          [](A a, V v) { return a.first_most > 32 && a.first_most != a.faces(v) && a.faces(v) < 6; },
+          [](A a, VertexId v) { return a.first_most > 32 && a.first_most != a.faces(v) && a.faces(v) < 6; },
           "state")};
   for (const int n : {3, 5})
     all.push_back(sharp(off(fmt::format("crease_of_valence_{}", n),
                             fmt::format("vertices of creases with {} faces are off", n),
-                            [n](A a, V v) { return a.on_inner_crease(v) && a.faces(v) == n; })));
+                            [n](A a, VertexId v) { return a.on_inner_crease(v) && a.faces(v) == n; })));
   for (const int n : {9, 10, 13})
     all.push_back(off(fmt::format("valence_{}", n), fmt::format("vertices amid {} faces are off", n),
-                      [n](A a, V v) { return a.inside(v) && a.faces(v) == n; }));
+                      [n](A a, VertexId v) { return a.inside(v) && a.faces(v) == n; }));
   for (const int n : {8, 16, 64, 100, 255})
     all.push_back(off(fmt::format("table_of_{}", n),
                       fmt::format("vertices amid more than {} faces are off", n),
-                      [n](A a, V v) { return amid_more(a, v, n); }));
+                      [n](A a, VertexId v) { return amid_more(a, v, n); }));
   for (const int bits : {15, 16})
     all.push_back(off(fmt::format("vertices_of_{}_bits", bits),
                       fmt::format("vertices with indices of more than {} bits are off", bits),
-                      [bits](A, V v) { return v >> bits > 0; }));
+                      [bits](A, VertexId v) { return v >> bits > 0; }));
   for (const std::size_t n : {9U, 17U, 65U, 256U})
     all.push_back(on(On::kQuads, inside(fmt::format("polygons_of_{}", n),
                                         fmt::format("the inside of faces of {} corners and more is off", n),

@@ -16,12 +16,12 @@ namespace {
 using reference::Edge, reference::Rational, reference::Sector, reference::Sharpness, reference::Topology;
 using reference::VertexRule, reference::VertexRules, reference::VertexState;
 using V = MutantRules::V;
-using Mesh = reference::TaggedMesh<double>;
+using TaggedMesh = reference::TaggedMesh<double>;
 
 // The sharpness of a mesh in a step with one rule changed.
 class MutantTags {
  public:
-  MutantTags(const Mesh& mesh, const MutantRules& rules)
+  MutantTags(const TaggedMesh& mesh, const MutantRules& rules)
       : topology_(mesh.topology), right_(mesh.sharpness), rules_(rules) {}
 
   // What reference::sharpen asks for.
@@ -191,7 +191,7 @@ class Steps {
       : rules_(rules), depth_(depth), has_tags_(!control.sharpness.empty()) {}
 
   // Face f of four children has those from 4 f on, a face of n corners in quads one for each corner, all faces in order.
-  Mesh refined(const Mesh& mesh, int step) const {
+  TaggedMesh refined(const TaggedMesh& mesh, int step) const {
     const MutantTags tags(mesh, rules_);
     std::vector<V> points = rules_.refine(mesh.topology, mesh.positions, step, depth_);
     if (has_tags_) reference::sharpen(mesh.topology, tags, mesh.positions, points);
@@ -203,7 +203,7 @@ class Steps {
   }
 
   // The position, and the normals in the faces around, in the order of the sector.
-  std::pair<V, std::vector<V>> limit_of(const Mesh& mesh, std::int32_t v) const {
+  std::pair<V, std::vector<V>> limit_of(const TaggedMesh& mesh, std::int32_t v) const {
     const Sector sector = mesh.topology.sector(v);
     const std::size_t count = sector.faces.size();
     if (!has_tags_ || mesh.sharpness.is_smooth_around(mesh.topology, v)) {
@@ -216,7 +216,7 @@ class Steps {
     std::vector<std::int32_t> faces(sector.faces.begin(), sector.faces.end());
     std::vector<std::size_t> corner;
     for (const std::int32_t f : faces) corner.push_back(corner_at(mesh.topology, f, v));
-    Mesh near = mesh.around(faces);
+    TaggedMesh near = mesh.around(faces);
     const auto here = [&] { return near.topology.faces()[0][corner[0]]; };
     for (int step = depth_; step < depth_ + 16 && !MutantTags(near, rules_).is_settled(here()); ++step) {
       for (std::size_t k = 0; k < count; ++k) faces[k] = static_cast<std::int32_t>(4 * k + corner[k]);
@@ -231,7 +231,7 @@ class Steps {
 
  private:
   // Of a vertex whose rule stays: of each side of the edges that stay sharp.
-  std::pair<V, std::vector<V>> lasting_limit(const Mesh& mesh, std::int32_t v) const {
+  std::pair<V, std::vector<V>> lasting_limit(const TaggedMesh& mesh, std::int32_t v) const {
     const Sector sector = mesh.topology.sector(v);
     const std::size_t count = sector.faces.size();
     MutantRing ring = ring_of(mesh.topology, mesh.positions, v);
@@ -292,9 +292,9 @@ MutantLevel::MutantLevel(const data::ControlMesh& control, data::Scheme scheme, 
       topology_(control.positions.size(), control.faces) {
   const Steps steps(rules, control, depth);
   Sharpness sharpness(topology_, control.sharpness);
-  Mesh mesh{std::move(topology_), reference::positions_of<double>(control), std::move(sharpness)};
+  TaggedMesh mesh{std::move(topology_), reference::positions_of<double>(control), std::move(sharpness)};
   for (int step = 0; step < depth; ++step) {
-    Mesh next = steps.refined(mesh, step);
+    TaggedMesh next = steps.refined(mesh, step);
     const bool last = step + 1 == depth;
     if (last && ((step > 0 && rules.is("one_step_missing")) || (depth % 2 == 1 && rules.is("odd_depths"))))
       std::copy(mesh.positions.begin(), mesh.positions.end(), next.positions.begin());

@@ -15,7 +15,7 @@ using namespace rows;
 
 namespace {
 
-using V = std::int32_t;
+using VertexId = std::int32_t;
 using data::SharpEdge;
 
 constexpr float kInfinite = data::kInfiniteSharpness;
@@ -41,14 +41,14 @@ Change edges(std::string name, std::string description, std::function<bool(A, co
       std::move(name), std::move(description),
       [lost](A a, Tags t) { std::erase_if(t.edges, [&](const SharpEdge& e) { return lost(a, e); }); }, check);
 }
-Change vertices(std::string name, std::string description, std::function<bool(A, V)> lost) {
+Change vertices(std::string name, std::string description, std::function<bool(A, VertexId)> lost) {
   return tags(std::move(name), std::move(description), [lost](A a, Tags t) {
     std::erase_if(t.vertices, [&](const auto& v) { return lost(a, v.vertex); });
   });
 }
 // At a vertex with more edges than that, only the first ones have tags.
 void lose_edges_beyond(Tags t, int most) {
-  std::map<V, int> count;
+  std::map<VertexId, int> count;
   std::erase_if(t.edges, [&](const SharpEdge& e) {
     const bool too_many = count[e.a] >= most || count[e.b] >= most;
     if (!too_many) ++count[e.a], ++count[e.b];
@@ -72,13 +72,13 @@ std::vector<Change> faults_of_tags() {
           [](A a, Tags t) {
             for (const SharpEdge& tag : t.edges)
               if (const reference::Edge* e = edge_of(a, tag); e != nullptr && e->on_boundary())
-                for (const V v : {e->a, e->b}) {
+                for (const VertexId v : {e->a, e->b}) {
                   std::erase_if(t.vertices, [v](const auto& held) { return held.vertex == v; });
                   t.vertices.push_back({v, kInfinite});
                 }
           },
           "boundary-crease"),
-      vertices("vertices_not_sharp", "the sharpness of vertices is ignored", [](A, V) { return true; }),
+      vertices("vertices_not_sharp", "the sharpness of vertices is ignored", [](A, VertexId) { return true; }),
       tags("vertices_never_fall", "sharp vertices stay sharp",
            [](A, Tags t) {
              for (auto& v : t.vertices) v.sharpness = kInfinite;
@@ -139,7 +139,7 @@ std::vector<Change> faults_of_tags() {
                                    const auto side = at.side();
                                    if (!side || side->along == 0 || at.p.face % 2 == 0) return;
                                    const auto c = at.a.mesh.faces[at.face()];
-                                   const V from = c[side->side], to = c[at.domain().next(side->side)];
+                                   const VertexId from = c[side->side], to = c[at.domain().next(side->side)];
                                    for (const SharpEdge& e : at.a.mesh.sharpness.edges)
                                      if (lasts(e.sharpness) && same_edge(e, from, to))
                                        return at.out.move_up(at.v);
@@ -198,14 +198,14 @@ std::vector<Change> faults_of_rare_tags() {
               return !lasts(e.sharpness) && (a.infinite[e.a] > 0 || a.infinite[e.b] > 0);
             }),
       vertices("held_on_a_crease", "the sharpness of a vertex on a crease is lost",
-               [](A a, V v) { return a.inside(v) && a.sharp_edges(v) == 2; }),
+               [](A a, VertexId v) { return a.inside(v) && a.sharp_edges(v) == 2; }),
       vertices("held_at_the_end", "the sharpness of a vertex where a sharp edge ends is lost",
-               [](A a, V v) { return a.inside(v) && a.sharp_edges(v) == 1; }),
+               [](A a, VertexId v) { return a.inside(v) && a.sharp_edges(v) == 1; }),
       vertices("held_on_the_boundary", "the sharpness of boundary vertices is lost",
-               [](A a, V v) { return !a.inside(v); }),
+               [](A a, VertexId v) { return !a.inside(v); }),
       tags("crease_between_creases", "a smooth edge between two creases is taken for one",
            [](A a, Tags t) {
-             std::set<std::pair<V, V>> tagged;
+             std::set<std::pair<VertexId, VertexId>> tagged;
              for (const SharpEdge& e : t.edges) tagged.insert(std::minmax(e.a, e.b));
              for (const reference::Edge& e : a.topology.edges())
                if (!e.on_boundary() && a.on_inner_crease(e.a) && a.on_inner_crease(e.b) &&

@@ -22,9 +22,8 @@
 namespace limitcheck::verify {
 namespace {
 
-using Key = std::int64_t;
 struct Placed {
-  std::optional<Key> face_and_point;
+  std::optional<std::int64_t> face_and_point;
   Lattice::Id id = Lattice::kNone;
   Sides::Id side = Lattice::kNone;
 };
@@ -36,7 +35,7 @@ Placed place(const Lattice& lattice, const Sides& sides, const Variant& v, const
   const Place q = v.original(t.place(vertex));
   const Lattice::Id id = lattice.id(q);
   if (id == Lattice::kNone) return {};
-  return {id * static_cast<Key>(v.face.size()) + q.face, id, sides.of(id, q.face)};
+  return {id * static_cast<std::int64_t>(v.face.size()) + q.face, id, sides.of(id, q.face)};
 }
 Placed place(const Evidence& e, const Variant& v, const Tessellation& t, std::int64_t vertex) {
   return place(e.lattice, e.reference.sides(), v, t, vertex);

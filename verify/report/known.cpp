@@ -184,8 +184,8 @@ std::string worst_text(const std::optional<double>& worst) {
 
 // --- Row by row.
 
-using Key = std::tuple<std::string, std::string, Case>;  // subject, check
-Key key_of(const Result& r) {
+using KnownKey = std::tuple<std::string, std::string, Case>;  // subject, check
+KnownKey key_of(const Result& r) {
   return {r.subject, r.check, case_of(r)};
 }
 
@@ -204,7 +204,7 @@ bool is_worse(const Result& now, const Result& before) {
 
 Comparison compare(const Report& report, const std::vector<Result>& rows) {
   Comparison c;
-  std::map<Key, Result> before;
+  std::map<KnownKey, Result> before;
   for (const Result& r : rows) {
     before[key_of(r)] = r;
     c.before += is_bad(r);

@@ -12,7 +12,7 @@ namespace limitcheck::verify {
 namespace {
 
 // Two subjects with names that mean something in the format: one is wrong in positions, the other crashes.
-Report example() {
+Report small_report() {
   Report report;
   report.version = "1.2.3";
   report.subjects = {"program:a b|<x>", "other"};
@@ -29,7 +29,7 @@ Report example() {
 }
 
 TEST(Sarif, EachCauseIsAResultWithARuleALevelAndItsSubjects) {
-  const Report report = example();
+  const Report report = small_report();
   const std::vector<Cause> all = causes(report);
   const auto log = nlohmann::json::parse(to_sarif(report, all, "standard"));
   EXPECT_EQ(log["version"], "2.1.0");
@@ -60,7 +60,7 @@ TEST(Sarif, EachCauseIsAResultWithARuleALevelAndItsSubjects) {
 }
 
 TEST(Markdown, NamesAndMessagesAreNoMarks) {
-  const Report report = example();
+  const Report report = small_report();
   const std::string page = to_markdown(report, causes(report), "standard");
   EXPECT_TRUE(says(page, "| program:a b\\|\\<x\\> |"));
   EXPECT_TRUE(says(page, "on cage\\[1\\]\\(x\\).obj"));

@@ -193,21 +193,21 @@ TEST(Boundary, AHoleOfTheControlMeshThatTheFileFilledIsAFinding) {
   }
 }
 
-data::ControlMesh named(const std::string& name) {
+data::ControlMesh mesh_of_shape(const std::string& name) {
   if (name != "flat sheet") return data::named_mesh(name);
   data::ControlMesh mesh = data::named_mesh("sheet");
   for (auto& p : mesh.positions) p[2] = 0;
   return mesh;
 }
 
-struct Case {
+struct ShapeCase {
   data::ControlMesh mesh;
   ClosestPoint surface;
   FileTessellation t;
   FileEvidence e;
 
-  Case(const std::string& name, int depth, std::size_t pieces)
-      : mesh(named(name)), surface(mesh, pieces), e{name, mesh, surface, t, 1e-6} {
+  ShapeCase(const std::string& name, int depth, std::size_t pieces)
+      : mesh(mesh_of_shape(name)), surface(mesh, pieces), e{name, mesh, surface, t, 1e-6} {
     const auto refined = reference::refine<double>(mesh, depth);
     for (const auto& p : refined.limits().positions) t.positions.push_back({p.x, p.y, p.z});
     t.triangles = refined.triangles();
@@ -221,7 +221,7 @@ struct Case {
 
 // A flat sheet lifted by 1/64 lies 1/64 from its limit surface, both ways, everywhere.
 TEST(Hausdorff, OfALiftedFlatSheetIsTheLift) {
-  Case c("flat sheet", 2, 4096);
+  ShapeCase c("flat sheet", 2, 4096);
   for (Vector& p : c.t.positions) p[2] += 1. / 64;
   const Hausdorff h = c.run();
   EXPECT_NEAR(h.from_triangles.at_least, 1. / 64, 1e-12);
@@ -236,7 +236,7 @@ TEST(Hausdorff, OfALiftedFlatSheetIsTheLift) {
 // A triangle less in the plane: the farthest point of the hole is the centre of its inscribed circle. Legs of
 // 1/4 of a square's side s: the radius is s/4 (1 - 1/sqrt 2).
 TEST(Hausdorff, SeesAHoleFromTheSurfaceOnly) {
-  Case c("flat sheet", 2, 4096);
+  ShapeCase c("flat sheet", 2, 4096);
   const auto hole = c.t.triangles[600];
   c.t.triangles.erase(c.t.triangles.begin() + 600);
   const Vector &p = c.t.positions[hole[0]], &q = c.t.positions[hole[1]], &r = c.t.positions[hole[2]];
@@ -256,7 +256,7 @@ TEST(Hausdorff, SeesAHoleFromTheSurfaceOnly) {
 // point of the surface over it is farther from what is left than from the rim; and the point of the surface
 // over the middle of the hole is nowhere nearer to a triangle than a dense search finds.
 TEST(Hausdorff, OfATetrahedronWithATriangleLessIsWhatADenseSearchFinds) {
-  Case c("tetrahedron", 3, 1 << 12);
+  ShapeCase c("tetrahedron", 3, 1 << 12);
   const auto hole = c.t.triangles[20];
   c.t.triangles.erase(c.t.triangles.begin() + 20);
   const Hausdorff h = c.run();
@@ -284,7 +284,7 @@ TEST(Hausdorff, OfATetrahedronWithATriangleLessIsWhatADenseSearchFinds) {
 
 TEST(Hausdorff, DenseSamplesOfBothSidesAreWithinTheBrackets) {
   for (const std::string name : {"icosahedron", "bumpy:20", "holes", "wheel:7"}) {
-    Case c(name, 1, 1 << 12);
+    ShapeCase c(name, 1, 1 << 12);
     place_points(c.e, {}, false, [](std::size_t, std::size_t) {});
     std::vector<Vector> samples;
     for (const auto& s : reference::refine<double>(c.mesh, 3).limits().positions)
@@ -296,7 +296,7 @@ TEST(Hausdorff, DenseSamplesOfBothSidesAreWithinTheBrackets) {
 // A file in another unit, amid the surface: every point of it is as far as the middle is, 0.23 diagonals.
 TEST(Hausdorff, OfATinyFileIsTheDistanceFromTheMiddle) {
   for (const double scale : {1e-6, 1e-54}) {
-    Case c("icosahedron", 2, 4096);
+    ShapeCase c("icosahedron", 2, 4096);
     for (Vector& p : c.t.positions) p = scale * p;
     const Hausdorff h = c.run();
     const double middle = c.surface.closest({0, 0, 0}).distance;
@@ -308,7 +308,7 @@ TEST(Hausdorff, OfATinyFileIsTheDistanceFromTheMiddle) {
 }
 
 TEST(Hausdorff, IsEndedByTheOneWhoWaits) {
-  Case c("icosahedron", 2, 4096);
+  ShapeCase c("icosahedron", 2, 4096);
   place_points(c.e, {}, false, [](std::size_t, std::size_t) {});
   EXPECT_THROW(hausdorff(c.e,
                          [calls = 0]() mutable {

@@ -4,7 +4,9 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -107,10 +109,9 @@ TEST_F(Findings, AreWrittenToTheReadmeIfAReportIsNamed) {
   const json report = json::parse(contents_of(file));
   ASSERT_FALSE(report.contains("in_short")) << "a report in short lacks rows: limitcheck audit --all-rows";
   std::string text = contents_of(kReadme);
-  for (std::size_t k = 0; k < rows(text, report).size(); ++k) {  // each moves those behind it
-    const Row row = rows(text, report)[k];
-    text.replace(row.begin, row.end - row.begin, row.should_be);
-  }
+  std::vector<Row> all = rows(text, report);
+  std::ranges::sort(all, std::greater{}, &Row::begin);  // the last one first: each moves those behind it
+  for (const Row& row : all) text.replace(row.begin, row.end - row.begin, row.should_be);
   const std::string_view audit = "from an audit of ";
   const std::size_t begin = text.find(audit) + audit.size(), end = text.find(' ', begin);
   ASSERT_GE(begin, audit.size());

@@ -18,7 +18,7 @@ if [[ $# -gt 0 ]]; then
 fi
 cd "$top"
 # Some of the tessellators are known to be wrong: what is new or gone since that was written down is what counts.
-echo "Auditing the built-in tessellators (two and a half minutes on two cores) ..." >&2
+echo "Auditing the built-in tessellators (six minutes on two cores) ..." >&2
 known=verify/peers/known.txt
 code=0
 build/release/limitcheck audit --report build/report --baseline "$known" || code=$?

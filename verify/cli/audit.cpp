@@ -58,11 +58,12 @@ std::vector<verify::AuditSubject> subjects(const Job& a, SubjectLoader& loader) 
   return {loader.open(a.subject, a.options)};
 }
 
+constexpr std::size_t kMostFacesUnderOptions = 1000;
+
 // When all subjects are audited on the default plan, those on a device look at these meshes of it alone. A subject under
 // options, which is there without them, too, looks at no large ones: they would take half of the time.
 bool is_left_out_there(const verify::AuditSubject& subject, const verify::AuditMesh& mesh) {
-  constexpr std::size_t kLarge = 1000;  // faces
-  if (!subject.options.empty() && mesh.mesh.faces.size() > kLarge) return true;
+  if (!subject.options.empty() && mesh.mesh.faces.size() > kMostFacesUnderOptions) return true;
   return on_a_device(subject) && !verify::meshes_for_devices().contains(mesh.name);
 }
 
@@ -175,6 +176,9 @@ int audit(const Job& a) {
     say(stderr,
         "limitcheck: opensubdiv-gl is audited on a few meshes; on the whole plan, which takes minutes, by "
         "limitcheck audit opensubdiv-gl\n");
+  if (few && std::erase_if(covering, [](const verify::AuditSubject& s) { return !s.options.empty(); }) > 0)
+    say(stderr, "limitcheck: subjects under options are audited on meshes of up to {} faces\n",
+        kMostFacesUnderOptions);
   const verify::CoverageQuestion coverage = a.must_refuse || !a.rerun.empty() || left_out("positions")
                                                 ? verify::CoverageQuestion{}
                                                 : verify::coverage_question(covering, meshes);

@@ -81,8 +81,9 @@ TEST(Usda, NoIndexReachesIntoAnotherMesh) {
       "faceVertexIndices = [0,1,3]\n";
   EXPECT_EQ(error_of_usda(mesh_of("", beyond) + mesh_of("")), "MESH_INDEX_OUT_OF_RANGE:5");
   EXPECT_EQ(error_of_usda(mesh_of("") + mesh_of("int[] holeIndices = [-1]")), "MESH_HOLE:12");
-  EXPECT_EQ(error_of_usda(mesh_of("int[] cornerIndices = [6]\nfloat[] cornerSharpnesses = [1]") + mesh_of("")),
-            "MESH_SHARPNESS:6");
+  EXPECT_EQ(
+      error_of_usda(mesh_of("int[] cornerIndices = [6]\nfloat[] cornerSharpnesses = [1]") + mesh_of("")),
+      "MESH_SHARPNESS:6");
 }
 
 TEST(Usda, WhatIsNotUnderstoodIsNamed) {

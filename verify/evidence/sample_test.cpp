@@ -22,7 +22,7 @@ namespace limitcheck::verify {
 namespace {
 
 const char* const kSampledMeshes[] = {"bumpy:800", "holes",    "ragged-disc", "wheel:50",
-                               "torus",     "random:3", "random:4",    "tetrahedron"};
+                                      "torus",     "random:3", "random:4",    "tetrahedron"};
 
 TEST(MeshSample, IsAValidMeshWithAtLeastTheFacesAskedFor) {
   for (const char* name : kSampledMeshes)

@@ -201,8 +201,9 @@ std::vector<Change> faults_of_rare_places() {
   std::vector<Change> all{
       sharp(off("crease_above_6", "vertices of creases with more than six faces are off",
                 [](A a, VertexId v) { return a.on_inner_crease(v) && a.faces(v) > 6; })),
-      sharp(off("side_of_three_faces", "vertices of creases with three faces on a side are off",
-                [](A a, VertexId v) { return a.faces_of_side(v) == 3 || a.faces(v) - a.faces_of_side(v) == 3; })),
+      sharp(off(
+          "side_of_three_faces", "vertices of creases with three faces on a side are off",
+          [](A a, VertexId v) { return a.faces_of_side(v) == 3 || a.faces(v) - a.faces_of_side(v) == 3; })),
       sharp(off("corner_of_4_edges", "vertices where four creases meet are off",
                 [](A a, VertexId v) { return a.inside(v) && a.infinite[v] == 4; })),
       sharp(off("dart_above_6", "ends of creases amid more than six faces are off",

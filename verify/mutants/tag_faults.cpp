@@ -78,7 +78,8 @@ std::vector<Change> faults_of_tags() {
                 }
           },
           "boundary-crease"),
-      vertices("vertices_not_sharp", "the sharpness of vertices is ignored", [](A, VertexId) { return true; }),
+      vertices("vertices_not_sharp", "the sharpness of vertices is ignored",
+               [](A, VertexId) { return true; }),
       tags("vertices_never_fall", "sharp vertices stay sharp",
            [](A, Tags t) {
              for (auto& v : t.vertices) v.sharpness = kInfinite;

@@ -321,7 +321,7 @@ AuditMesh made(const PlannedCase& planned) {
   m.depths = planned.depths;
   m.relations = planned.relations;
   m.asked_again = planned.asked_again;
-  // Points cost most at deep levels and faces on large meshes, and what turned corners show is seen without, too.
+  // Deep levels and large meshes cost most, and what turned corners show is seen on the others, too.
   m.turned = planned.depth < 4 && m.mesh.faces.size() <= 8192;
   if (m.mesh.positions.size() > 0x8000 && m.depth > 0)
     m.sample = std::make_shared<MeshSample>(m.mesh, kSampled, 1);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
+#include <set>
 
 #include "data/generators/named_mesh.h"
 #include "data/generators/star_meshes.h"
@@ -148,10 +150,11 @@ std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>
   return plan;
 }
 
-const std::set<std::string, std::less<>>& meshes_for_devices() {
-  static const std::set<std::string, std::less<>> names{"icosahedron", "sheet",          "torus",
-                                                        "quad-cube",   "quad-torus:4:3", "creased-cube"};
-  return names;
+bool is_looked_at_beside_all(const AuditSubject& subject, bool on_a_device, const AuditMesh& mesh) {
+  static const std::set<std::string, std::less<>> for_devices{
+      "icosahedron", "sheet", "torus", "quad-cube", "quad-torus:4:3", "creased-cube"};
+  if (on_a_device) return for_devices.contains(mesh.name);
+  return subject.options.empty() || mesh.mesh.faces.size() <= kMostFacesUnderOptions;
 }
 
 }  // namespace limitcheck::verify

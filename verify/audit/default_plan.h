@@ -2,9 +2,8 @@
 // The meshes and depths of `limitcheck audit SUBJECT` when the command line names neither.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,9 +19,12 @@ namespace limitcheck::verify {
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 
-/// Its meshes that subjects on a device look at where all subjects are audited: a driver without a graphics card takes
-/// minutes for what a processor does in seconds.
-const std::set<std::string, std::less<>>& meshes_for_devices();
+constexpr std::size_t kMostFacesUnderOptions = 1000;
+
+/// Whether a subject looks at a mesh of the plan where all subjects are audited. One on a device looks at six small ones:
+/// a driver without a graphics card takes minutes for what a processor does in seconds. One under options, which is there
+/// without them, too, looks at none of more than kMostFacesUnderOptions faces: they would take half of the time.
+bool is_looked_at_beside_all(const AuditSubject& subject, bool on_a_device, const AuditMesh& mesh);
 
 /// The cases of a scheme and of sharp edges that some of the subjects does; all without sharp edges if a
 /// subject does not say.

@@ -76,10 +76,17 @@ TEST(DefaultPlan, ItsCasesAreValidTypeableAndAreAskedForOnce) {
   }
 }
 
-TEST(DefaultPlan, HasTheMeshesThatDevicesLookAt) {
-  std::set<std::string, std::less<>> left = meshes_for_devices();
-  for (const AuditMesh& m : default_plan(Level::kStandard)) left.erase(m.name);
-  EXPECT_EQ(left.size(), 0U) << *left.begin();
+TEST(DefaultPlan, IsShorterOnDevicesAndUnderOptionsWhereAllSubjectsAreAudited) {
+  std::set<std::string> on_a_device;
+  std::size_t large = 0;
+  for (const AuditMesh& m : default_plan(Level::kStandard)) {
+    EXPECT_TRUE(is_looked_at_beside_all({nullptr, ""}, false, m)) << m.name;
+    EXPECT_EQ(is_looked_at_beside_all({nullptr, "level=4"}, false, m), m.mesh.faces.size() <= 1000) << m.name;
+    large += m.mesh.faces.size() > 1000;
+    if (is_looked_at_beside_all({nullptr, ""}, true, m)) on_a_device.insert(m.name);
+  }
+  EXPECT_GT(large, 10U);
+  EXPECT_EQ(on_a_device.size(), 6U) << "a mesh for devices is no longer in the plan";
 }
 
 TEST(DefaultPlan, ItsRandomFrameHasCulledFacesAndEveryDepthAndItsViewMoreThanOne) {

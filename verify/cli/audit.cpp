@@ -58,15 +58,6 @@ std::vector<verify::AuditSubject> subjects(const Job& a, SubjectLoader& loader) 
   return {loader.open(a.subject, a.options)};
 }
 
-constexpr std::size_t kMostFacesUnderOptions = 1000;
-
-// When all subjects are audited on the default plan, those on a device look at these meshes of it alone. A subject under
-// options, which is there without them, too, looks at no large ones: they would take half of the time.
-bool is_left_out_there(const verify::AuditSubject& subject, const verify::AuditMesh& mesh) {
-  if (!subject.options.empty() && mesh.mesh.faces.size() > kMostFacesUnderOptions) return true;
-  return on_a_device(subject) && !verify::meshes_for_devices().contains(mesh.name);
-}
-
 // For --help.
 std::string built_in_names() {
   std::string names;
@@ -178,7 +169,7 @@ int audit(const Job& a) {
         "limitcheck audit opensubdiv-gl\n");
   if (few && std::erase_if(covering, [](const verify::AuditSubject& s) { return !s.options.empty(); }) > 0)
     say(stderr, "limitcheck: subjects under options are audited on meshes of up to {} faces\n",
-        kMostFacesUnderOptions);
+        verify::kMostFacesUnderOptions);
   const verify::CoverageQuestion coverage = a.must_refuse || !a.rerun.empty() || left_out("positions")
                                                 ? verify::CoverageQuestion{}
                                                 : verify::coverage_question(covering, meshes);
@@ -196,7 +187,7 @@ int audit(const Job& a) {
   if (!a.rerun.empty() || !a.left_out.empty() || few)
     auditor.judge_only(
         [&](const verify::AuditSubject& s, const verify::AuditMesh& m, std::string_view check) {
-          if (few && is_left_out_there(s, m)) return false;
+          if (few && !verify::is_looked_at_beside_all(s, on_a_device(s), m)) return false;
           return a.rerun.empty() ? !left_out(check) : a.again.has(s.label(), m, check);
         });
   auditor.leave_what_is_interrupted();

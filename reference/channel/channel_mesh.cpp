@@ -93,22 +93,6 @@ class Classifier {
   data::ChannelRule rule_;
 };
 
-/// The sharpness of a vertex that is held as long as these hold it, by uniform creasing: at the last step that any of
-/// them lasts, those that vanish in it count with their mean.
-Rational lasting(const std::vector<ChannelTopology::Holding>& holding) {
-  Rational most;
-  for (const auto& h : holding) most = std::max(most, h.now);
-  if (Sharpness::is_infinite(most) || most == 0) return most;
-  Rational floor = most;  // the whole steps before the last one
-  while (floor > 1) floor -= 1;
-  floor = most - floor;
-  Rational sum;
-  int count = 0;
-  for (const auto& h : holding)
-    if (h.now > floor) sum += h.now, ++count;
-  return sum / count;
-}
-
 }  // namespace
 
 ChannelTopology::ChannelTopology(Topology mesh, const SharpTags& tags, std::span<const std::int32_t> values,
@@ -206,27 +190,31 @@ ChannelCut cut_and_hold(const ChannelTopology& channel, data::TriangleRule trian
         result.faces[static_cast<std::size_t>(f)][k] = copy;
       }
       const ValueState state = channel.states[first];
-      const Rational sharpness = state == ValueState::kHeld        ? Rational(10)
-                                 : state == ValueState::kDependent ? lasting(channel.holding(v, run))
-                                                                   : channel.sharpness.vertex(v);
+      const Rational sharpness = state == ValueState::kHeld ? Rational(10) : channel.sharpness.vertex(v);
       if (sharpness > 0) result.tags.vertices.push_back({copy, exact(sharpness)});
+      if (state == ValueState::kMatches) continue;
+      std::vector<bool> is_inside(sector.edges.size(), false);
+      for (std::size_t i = 1; i < run.count; ++i) is_inside[channel.edge(sector, run, i)] = true;
+      for (std::size_t i = 0; i < is_inside.size(); ++i) {
+        const std::int32_t e = sector.edges[i];
+        const Rational& beyond = channel.sharpness.edge(e);
+        const bool holds = state == ValueState::kDependent && !channel.seams[static_cast<std::size_t>(e)];
+        if (!is_inside[i] && Sharpness::is_semi_sharp(beyond) &&
+            !topology.edges()[static_cast<std::size_t>(e)].on_boundary() &&
+            (holds || channel.sharpness.creasing() == data::Creasing::kChaikin))
+          result.tags.beyond.push_back({copy, exact(beyond), holds});
+      }
     }
   }
   for (std::size_t e = 0; e < topology.edges().size(); ++e) {
     const Edge& edge = topology.edges()[e];
     const Rational& sharpness = channel.sharpness.edge(static_cast<std::int32_t>(e));
-    if (sharpness == 0 || edge.on_boundary()) continue;
+    if (sharpness == 0 || edge.on_boundary() || channel.seams[e]) continue;
     const auto left = static_cast<std::size_t>(edge.left_face);
-    const std::size_t begin = topology.faces().first_corner(left);
-    const std::size_t a = channel.corner(edge.left_face, edge.a), b = channel.corner(edge.left_face, edge.b);
-    if (!channel.seams[e])
-      result.tags.edges.push_back(
-          {result.faces[left][a - begin], result.faces[left][b - begin], exact(sharpness)});
-    const bool on_a_seam =
-        channel.states[a] != ValueState::kMatches || channel.states[b] != ValueState::kMatches;
-    if (on_a_seam && Sharpness::is_semi_sharp(sharpness) &&
-        channel.sharpness.creasing() == data::Creasing::kChaikin)
-      result.is_exact = false;
+    const auto copy = [&](std::int32_t end) {
+      return result.faces[left][channel.corner(edge.left_face, end) - topology.faces().first_corner(left)];
+    };
+    result.tags.edges.push_back({copy(edge.a), copy(edge.b), exact(sharpness)});
   }
   return result;
 }

@@ -70,14 +70,13 @@ struct ChannelTopology {
   bool is_semi_sharp(std::size_t face) const;
 };
 
-/// The mesh that is cut along the seams: each run has a vertex of its own. With boundary `edge` its surface is the channel.
+/// The mesh that is cut along the seams: each run has a vertex of its own, which knows the semi-sharp edges that its vertex
+/// has beyond the run: by Chaikin's creasing sharpness falls by theirs, too, and they hold a dependent value. With boundary
+/// `edge` its surface is the channel.
 struct ChannelCut {
   data::Faces faces;                   ///< those of the mesh, corner by corner
   std::vector<std::size_t> corner_of;  ///< for each vertex a corner that has its value
   SharpTags tags;
-  /// Whether that holds. It does not by Chaikin's creasing where a semi-sharp edge ends on a seam: sharpness falls by
-  /// that of all edges round a vertex, and the cut has only those of a run.
-  bool is_exact = true;
 };
 ChannelCut cut_and_hold(const ChannelTopology& channel, data::TriangleRule triangles);
 

@@ -26,8 +26,15 @@ struct SharpTags {
     std::int32_t vertex;
     Parameter sharpness;
   };
+  /// In a mesh that was cut along seams: an edge that a vertex has beyond them.
+  struct Beyond {
+    std::int32_t vertex;
+    Parameter sharpness;
+    bool holds;  ///< whether the vertex's own rule counts it
+  };
   std::vector<Edge> edges;
   std::vector<Vertex> vertices;
+  std::vector<Beyond> beyond;
   data::Boundary boundary = data::Boundary::kEdge;
   data::Creasing creasing = data::Creasing::kUniform;
   data::TriangleRule triangles = data::TriangleRule::kCatmark;
@@ -41,7 +48,7 @@ struct SharpTags {
   }
 
   bool empty() const {
-    return edges.empty() && vertices.empty() && boundary == data::Boundary::kEdge &&
+    return edges.empty() && vertices.empty() && beyond.empty() && boundary == data::Boundary::kEdge &&
            triangles == data::TriangleRule::kCatmark;
   }
 };

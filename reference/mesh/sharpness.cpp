@@ -57,6 +57,8 @@ Sharpness::Sharpness(const Topology& topology, const SharpTags& tags)
     tagged[at] = true;
     vertex_.set(at, s);
   }
+  for (const auto& tag : tags.beyond)
+    beyond_[tag.vertex].push_back({exact_sharpness(tag.sharpness), tag.holds});
   if (tags.boundary == data::Boundary::kEdgeAndCorner)
     for (std::size_t v = 0; v < vertex_.size(); ++v) {
       const Sector sector = topology.sector(static_cast<std::int32_t>(v));
@@ -72,18 +74,25 @@ bool Sharpness::is_smooth_around(const Topology& topology, std::int32_t v) const
 
 Rational Sharpness::half_after_step(const Topology& topology, std::int32_t e, std::int32_t v) const {
   const Rational& s = edge(e);
+  return topology.edges()[static_cast<std::size_t>(e)].on_boundary() ? one_less(s)
+                                                                     : half_after_step(topology, s, v);
+}
+
+Rational Sharpness::half_after_step(const Topology& topology, const Rational& s, std::int32_t v) const {
   if (!is_semi_sharp(s)) return s;
-  Rational sum;
-  int others = 0;
-  if (chaikin_)
-    for (const std::int32_t other : topology.sector(v).edges)
-      if (other != e && is_semi_sharp(edge(other)) &&
-          !topology.edges()[static_cast<std::size_t>(other)].on_boundary()) {
-        sum += edge(other);
-        ++others;
-      }
-  if (others == 0) return one_less(s);
-  const Rational next = s * Rational(3, 4) + sum / (4 * others) - 1;
+  Rational others = -s;
+  int count = -1;
+  const auto add = [&](const Rational& other) {
+    if (is_semi_sharp(other)) others += other, ++count;
+  };
+  if (chaikin_) {
+    for (const std::int32_t e : topology.sector(v).edges)
+      if (!topology.edges()[static_cast<std::size_t>(e)].on_boundary()) add(edge(e));
+    if (const auto at = beyond_.find(v); at != beyond_.end())
+      for (const Beyond& other : at->second) add(other.sharpness);
+  }
+  if (count < 1) return one_less(s);
+  const Rational next = s * Rational(3, 4) + others / (4 * count) - 1;
   return next > 0 ? next : Rational(0);
 }
 
@@ -118,6 +127,14 @@ VertexRules Sharpness::rules(const Topology& topology, std::int32_t v) const {
     if (children < 2) result.child.ends[static_cast<std::size_t>(children)] = end;
     ++children;
   }
+  if (const auto at = beyond_.find(v); at != beyond_.end())
+    for (const Beyond& edge : at->second) {
+      if (!edge.holds) continue;
+      const Rational after = half_after_step(topology, edge.sharpness, v);
+      vanishes(edge.sharpness, after);
+      ++parents;
+      children += after > 0 ? 1 : 0;
+    }
   vanishes(own, own_after);
   const auto rule = [](const Rational& held, int edges) {
     if (held > 0) return VertexRule::kCorner;
@@ -146,6 +163,10 @@ Sharpness Sharpness::refined(const Topology& topology, const Topology& finer) co
     if (!edge_.is_zero(parent))
       result.edge_.set(e, half_after_step(topology, static_cast<std::int32_t>(parent), v));
   }
+  for (const auto& [v, edges_beyond] : beyond_)
+    for (const Beyond& edge : edges_beyond)
+      if (const Rational after = half_after_step(topology, edge.sharpness, v); after > 0)
+        result.beyond_[v].push_back({after, edge.holds});
   return result;
 }
 
@@ -160,8 +181,11 @@ Sharpness Sharpness::of_part(const Topology& topology, const Topology& part,
       if (const std::int32_t e = topology.edge(static_cast<std::size_t>(faces[f]), k); !is_smooth(e))
         result.edge_.set(static_cast<std::size_t>(part.edge(f, k)), edge(e));
   result.vertex_ = SparseRationals(vertices.size());
-  for (std::size_t k = 0; k < vertices.size(); ++k)
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
     result.vertex_.set(k, vertex_[static_cast<std::size_t>(vertices[k])]);
+    if (const auto at = beyond_.find(vertices[k]); at != beyond_.end())
+      result.beyond_[static_cast<std::int32_t>(k)] = at->second;
+  }
   return result;
 }
 
@@ -173,6 +197,8 @@ SharpTags Sharpness::tags(const Topology& topology) const {
       result.edges.push_back({topology.edges()[e].a, topology.edges()[e].b, exact(edge_[e])});
   for (std::size_t v = 0; v < vertex_.size(); ++v)
     if (!vertex_.is_zero(v)) result.vertices.push_back({static_cast<std::int32_t>(v), exact(vertex_[v])});
+  for (const auto& [v, edges] : beyond_)
+    for (const Beyond& edge : edges) result.beyond.push_back({v, exact(edge.sharpness), edge.holds});
   result.creasing = creasing();
   return result;
 }
@@ -187,6 +213,9 @@ std::vector<bool> Sharpness::needs_a_step(const Topology& topology) const {
   std::vector<bool> at_vertex(topology.vertex_count(), false);
   for (std::size_t v = 0; v < vertex_.size(); ++v)
     at_vertex[v] = !vertex_.is_zero(v) && is_semi_sharp(vertex_[v]);
+  for (const auto& [v, edges] : beyond_)
+    for (const Beyond& edge : edges)
+      if (edge.holds) at_vertex[static_cast<std::size_t>(v)] = true;
   for (std::size_t e = 0; e < edge_.size(); ++e) {
     const Edge& ends = topology.edges()[e];
     if (ends.on_boundary() || edge_.is_zero(e)) continue;

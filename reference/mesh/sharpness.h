@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "data/faces.h"
@@ -108,8 +109,16 @@ class Sharpness {
            (!is_smooth(e) && is_infinite(edge(e)));
   }
   int lasting_edges(const Topology& topology, std::int32_t v) const;
+  /// Of an inner edge at a vertex, or of one beyond a seam.
+  Rational half_after_step(const Topology& topology, const Rational& s, std::int32_t v) const;
 
+  /// See SharpTags::Beyond.
+  struct Beyond {
+    Rational sharpness;
+    bool holds;
+  };
   SparseRationals edge_, vertex_;
+  std::map<std::int32_t, std::vector<Beyond>> beyond_;  // by vertex
   bool chaikin_ = false;
 };
 

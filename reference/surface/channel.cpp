@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,7 +71,8 @@ class Steps {
 };
 
 // Until they are done.
-Descent descend(auto& steps, int corner, Rational u, Rational v) {
+template <class N>
+Descent descend(Steps<N>& steps, int corner, Rational u, Rational v) {
   Rational factor = 1;
   if (!steps.done() && steps.near().topology.faces()[0].size() != 4) {
     steps.to(static_cast<std::size_t>(corner));
@@ -84,7 +83,8 @@ Descent descend(auto& steps, int corner, Rational u, Rational v) {
 }
 
 // The same of triangles. The face is turned so that its parameters run along those of the given one, or against them.
-Descent descend_triangles(auto& steps, const Parameter& first, const Parameter& second) {
+template <class N>
+Descent descend_triangles(Steps<N>& steps, const Parameter& first, const Parameter& second) {
   const auto [l1, l2] = exact_parameters(first, second);
   SubFacePath<Rational> path(l1, l2);
   Rational factor = 1;
@@ -142,7 +142,7 @@ struct ChannelEvaluator::Data {
   data::TriangleRule triangles;
   ChannelTopology channel;
   std::vector<Block> blocks{};
-  std::vector<std::unique_ptr<const CertifiedEvaluator>> whole{};  // of the cut, if it is exact and asked for
+  std::vector<std::unique_ptr<const CertifiedEvaluator>> whole{};  // of the cut, if it is asked for
 
   bool is_loop() const { return scheme == data::Scheme::kLoop; }
 
@@ -171,15 +171,15 @@ ChannelEvaluator::ChannelEvaluator(const data::ControlMesh& mesh, const data::Ch
     data->blocks.push_back(std::move(block));
   }
   if (method == Method::kCut && rule != data::ChannelRule::kAll)
-    if (const ChannelCut cut = cut_and_hold(data->channel, data->triangles); cut.is_exact)
-      for (const Block& block : data->blocks) {
-        std::vector<std::array<std::string, 3>> positions;
-        for (const std::size_t c : cut.corner_of)
-          positions.push_back({Parameter(block[c][0]).to_string(), Parameter(block[c][1]).to_string(),
-                               Parameter(block[c][2]).to_string()});
-        data->whole.push_back(
-            std::make_unique<const CertifiedEvaluator>(positions, cut.faces, scheme, cut.tags));
-      }
+    for (const Block& block : data->blocks) {
+      const ChannelCut cut = cut_and_hold(data->channel, data->triangles);
+      std::vector<std::array<std::string, 3>> positions;
+      for (const std::size_t c : cut.corner_of)
+        positions.push_back({Parameter(block[c][0]).to_string(), Parameter(block[c][1]).to_string(),
+                             Parameter(block[c][2]).to_string()});
+      data->whole.push_back(
+          std::make_unique<const CertifiedEvaluator>(positions, cut.faces, scheme, cut.tags));
+    }
   data_ = std::move(data);
 }
 
@@ -212,89 +212,14 @@ std::vector<CertifiedPoint> ChannelEvaluator::evaluate(int face, int corner, con
   return result;
 }
 
-namespace {
-
-Surface surface_of(const Settled<double>& part, data::Scheme scheme) {
-  return {part.cut.faces, part.values, part.cut.tags, scheme};
-}
-
-// Whether every vertex of face 0 on a seam is without semi-sharp inner edges. By Chaikin's creasing the sharpness of
-// such an edge falls by edges that the cut does not have.
-bool has_exact_cut(const ChannelTopology& near) {
-  const Topology& topology = near.topology;
-  const auto corners = topology.faces()[0];
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    if (near.states[k] != ValueState::kMatches)
-      for (const std::int32_t e : topology.sector(corners[k]).edges)
-        if (!topology.edges()[static_cast<std::size_t>(e)].on_boundary() &&
-            Sharpness::is_semi_sharp(near.sharpness.edge(e)))
-          return false;
-  return true;
-}
-
-/// What is near a part of a face, and its cut's surface if that is asked for.
-struct Near {
-  explicit Near(ChannelMesh<double> of) : mesh(std::move(of)), has_cut(has_exact_cut(mesh)) {}
-  ChannelMesh<double> mesh;
-  bool has_cut;
-  std::map<std::size_t, std::unique_ptr<Near>> finer{};
-  std::optional<Surface> surface{};
-};
-
-/// As Steps, of which each is made once, until the cut is exact.
-struct KeptSteps {
-  Near* at;
-  data::Scheme scheme;
-  data::TriangleRule triangles;
-
-  const ChannelMesh<double>& near() const { return at->mesh; }
-  bool done() const { return at->has_cut || !at->mesh.is_semi_sharp(0); }
-  void to(std::size_t child) {
-    std::unique_ptr<Near>& next = at->finer[child];
-    if (next == nullptr)
-      next = std::make_unique<Near>(refine_once(at->mesh, scheme, triangles).around(child));
-    at = next.get();
-  }
-};
-
-}  // namespace
-
 data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel) {
   return cut_and_hold(topology_of(mesh, channel, data::ChannelRule::kNone), {}).faces;
 }
 
-bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule) {
-  return mesh.sharpness.creasing == data::Creasing::kUniform ||
-         cut_and_hold(topology_of(mesh, channel, rule), mesh.sharpness.triangles).is_exact;
-}
-
 struct ChannelSurface::Data {
-  data::Scheme scheme;
-  data::ChannelRule rule;
-  data::TriangleRule triangles;
+  bool is_loop;
   ChannelMesh<double> mesh;
-  std::optional<Surface> surface{};  // none by the rule `all`, and where no cut is exact
-  // Where none is: what is near each face that was asked for.
-  std::mutex mutex{};
-  std::map<std::size_t, Near> near{};
-
-  bool is_loop() const { return scheme == data::Scheme::kLoop; }
-
-  SurfacePoint<double> by_steps(std::size_t face, int corner, double u, double v) {
-    std::unique_lock lock(mutex);
-    auto found = near.find(face);
-    if (found == near.end()) found = near.emplace(face, Near(mesh.around(face))).first;
-    KeptSteps steps{&found->second, scheme, triangles};
-    const Descent at =
-        is_loop() ? descend_triangles(steps, u, v) : descend(steps, corner, Rational(u), Rational(v));
-    if (!steps.at->surface)
-      steps.at->surface.emplace(surface_of(settled(steps.near(), triangles, at), scheme));
-    lock.unlock();
-    SurfacePoint<double> point = steps.at->surface->evaluate(0, at.corner, number_from<double>(at.u),
-                                                             number_from<double>(at.v), Derivatives::kFirst);
-    scale_derivatives(point, number_from<double>(at.factor));
-    return point;
-  }
+  std::optional<Surface> surface{};  // none by the rule `all`
 };
 
 ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channel& channel,
@@ -304,22 +229,21 @@ ChannelSurface::ChannelSurface(const data::ControlMesh& mesh, const data::Channe
   for (std::size_t c = 0; c < values.size(); ++c)
     for (int k = 0; k < std::min(channel.components, 3); ++k)
       (k == 0 ? values[c].x : k == 1 ? values[c].y : values[c].z) = channel.at(c, k);
-  data_.reset(new Data{scheme, rule, mesh.sharpness.triangles,
+  data_.reset(new Data{scheme == data::Scheme::kLoop,
                        ChannelMesh<double>(topology_of(mesh, channel, rule), std::move(values))});
   if (rule == data::ChannelRule::kAll) return;
   const Settled<double> whole = settled(data_->mesh, mesh.sharpness.triangles, {0, 0, 0, 1});
-  if (whole.cut.is_exact) data_->surface.emplace(surface_of(whole, scheme));
+  data_->surface.emplace(whole.cut.faces, whole.values, whole.cut.tags, scheme);
 }
 
 ChannelSurface::~ChannelSurface() = default;
 
 SurfacePoint<double> ChannelSurface::evaluate(int face, int corner, double u, double v) const {
   if (data_->surface) return data_->surface->evaluate(face, corner, u, v, Derivatives::kFirst);
-  const auto f = static_cast<std::size_t>(face);
-  if (data_->rule != data::ChannelRule::kAll) return data_->by_steps(f, corner, u, v);
-  const std::vector<Vec3<double>> c = linear_corners(data_->mesh, data_->is_loop(), f, corner);
+  const std::vector<Vec3<double>> c =
+      linear_corners(data_->mesh, data_->is_loop, static_cast<std::size_t>(face), corner);
   const Vec3<double> along = c[1] - c[0], across = c.back() - c[0];
-  const Vec3<double> twist = data_->is_loop() ? Vec3<double>{} : c[2] - c[1] - across;
+  const Vec3<double> twist = data_->is_loop ? Vec3<double>{} : c[2] - c[1] - across;
   SurfacePoint<double> point{};
   point.position = c[0] + along * u + across * v + twist * (u * v);
   point.d1 = along + twist * v, point.d2 = across + twist * u;

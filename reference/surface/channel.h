@@ -18,7 +18,7 @@ class ChannelEvaluator {
  public:
   /// How the limit is found. The two are of different kind and give the same.
   enum class Method {
-    kCut,  ///< the mesh is cut along the seams, and its ordinary surface evaluated (kSteps where no cut is exact)
+    kCut,  ///< the mesh is cut along the seams, and its ordinary surface evaluated
     kSteps  ///< steps by the channel's rules on the whole mesh as long as semi-sharp tags are near, and then the cut
   };
 
@@ -43,12 +43,7 @@ class ChannelEvaluator {
 /// Throws data::ArgumentError as ChannelEvaluator.
 data::Faces faces_of_cut(const data::ControlMesh& mesh, const data::Channel& channel);
 
-/// Whether a channel is the surface of a cut mesh: not by Chaikin's creasing where a semi-sharp edge ends on a seam. Throws
-/// data::ArgumentError as ChannelEvaluator.
-bool has_exact_cut(const data::ControlMesh& mesh, const data::Channel& channel, data::ChannelRule rule);
-
-/// The same in double: of the cut, whose errors are those of Surface; where no cut is exact, of the cut after steps on
-/// the whole mesh, which are kept; by the rule `all` a few roundings.
+/// The same in double: of the cut, whose errors are those of Surface; by the rule `all` a few roundings.
 class ChannelSurface {
  public:
   /// Throws data::ArgumentError as ChannelEvaluator.

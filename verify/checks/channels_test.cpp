@@ -83,20 +83,17 @@ TEST(ChannelRows, HaveACommandThatEvaluatesTheChannel) {
   }
 }
 
-// Right ones hold on every fourth of the plan's meshes, and derivatives stay below a tenth of their bound. By Chaikin's
-// creasing some have no exact cut and are handed to nobody: METHOD.md says how many.
+// Right ones hold on every fourth of the plan's meshes, and on all where Chaikin's creasing goes across seams; derivatives
+// stay below a tenth of their bound.
 TEST(ChannelRows, OfRightSubjectsHoldOnThePlan) {
-  int without_cut = 0, with_channel = 0;
+  int across_seams = 0, with_channel = 0;
   double worst = 0;
   for (const AuditMesh& m : default_plan(Level::kStandard)) {
     if (m.mesh.channels.empty()) continue;
     ++with_channel;
-    const data::Channel& uv = m.mesh.channels[0];
-    if (!reference::has_exact_cut(m.mesh, uv, *uv.rule)) {
-      ++without_cut;
-      continue;
-    }
-    if (with_channel % 4 != 0) continue;
+    const bool across = m.mesh.sharpness.creasing == data::Creasing::kChaikin;
+    across_seams += across;
+    if (!across && with_channel % 4 != 0) continue;
     AuditMesh quick = m;
     quick.relations = false, quick.asked_again = false;
     for (const Result& r : audited(naive(), quick)) {
@@ -106,7 +103,7 @@ TEST(ChannelRows, OfRightSubjectsHoldOnThePlan) {
       if (r.check == "channel-derivatives" && r.worst) worst = std::max(worst, *r.worst / *r.bound);
     }
   }
-  EXPECT_EQ(without_cut, 14);
+  EXPECT_GE(across_seams, 10);
   EXPECT_LE(worst, .1);
   RecordProperty("worst", fmt::format("{:.3g}", worst));
 }

@@ -302,9 +302,7 @@ std::vector<Result> check_channels(const Evidence& e) {
     return std::vector<Result>{positions, derivatives, shared};
   };
   if (e.mesh.channels.empty())
-    return unlooked(Status::kNotSupported,
-                    "was handed no channel: it does not do the rule, or by Chaikin's creasing a semi-sharp "
-                    "edge ends on a seam");
+    return unlooked(Status::kNotSupported, "was handed no channel: it does not do the rule");
   if (e.tessellation.channel_count() == 0)
     return unlooked(Status::kNotRun, "no channel values were delivered");
   if (e.capabilities.points != LC_POINTS_LIMIT)

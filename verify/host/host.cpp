@@ -11,7 +11,6 @@
 
 #include "data/error.h"
 #include "data/validate.h"
-#include "reference/surface/channel.h"
 #include "verify/host/matching.h"
 #include "verify/host/subject_call.h"
 
@@ -120,13 +119,11 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
   if (input == Input::kValid && (capabilities_.sharp & LC_SHARP_NO_DARTS) != 0 && has_darts(mesh))
     throw NotAsked(fmt::format("{}: does not do sharp edges that end inside the surface", subject.name));
   const bool single = capabilities_.precision == LC_FLOAT32;
-  // A channel that does not fit the mesh, as that of one with fewer faces, is nobody's to interpolate; nor is one
-  // that takes too long to judge.
+  // A channel that does not fit the mesh, as that of one with fewer faces, is nobody's to interpolate.
   std::erase_if(mesh_.channels, [&](const data::Channel& c) {
     const data::ChannelRule rule = c.rule.value_or(data::kUsualChannelRule);
     return (capabilities_.channel_rules >> static_cast<int>(rule) & 1) == 0 ||
-           !data::fault_of(c, mesh_).empty() ||
-           (input == Input::kValid && !reference::has_exact_cut(mesh_, c, rule));
+           !data::fault_of(c, mesh_).empty();
   });
   if (input == Input::kValid) {
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)

@@ -55,6 +55,37 @@ Change tags_of_channel(const char* name, const char* description, std::function<
                   [change](A a) { return changes(a, change) && rule_of(a) < ChannelRule::kBoundaries; }));
 }
 
+// The mesh that is cut along the seams, which does not know what edges its vertices had beyond them.
+data::ControlMesh forgetful_cut(A a) {
+  const Channel& uv = uv_of(a);
+  const reference::ChannelTopology whole(a.topology, a.mesh.sharpness, uv.corners, rule_of(a));
+  const reference::ChannelCut cut = reference::cut_and_hold(whole, a.mesh.sharpness.triangles);
+  data::ControlMesh mesh{.faces = cut.faces};
+  for (const std::size_t c : cut.corner_of) mesh.positions.push_back({uv.at(c, 0), uv.at(c, 1), 0});
+  for (const auto& e : cut.tags.edges)
+    mesh.sharpness.edges.push_back({e.a, e.b, static_cast<float>(e.sharpness.as_double())});
+  for (const auto& v : cut.tags.vertices)
+    mesh.sharpness.vertices.push_back({v.vertex, static_cast<float>(v.sharpness.as_double())});
+  mesh.sharpness.creasing = a.mesh.sharpness.creasing;
+  mesh.sharpness.triangles = a.mesh.sharpness.triangles;
+  return mesh;
+}
+// By Chaikin's creasing it falls by these edges, too. They are told apart from those that hold a dependent value.
+bool has_sharpness_across_seams(A a) {
+  if (a.mesh.sharpness.creasing != data::Creasing::kChaikin || rule_of(a) >= ChannelRule::kBoundaries)
+    return false;
+  const reference::ChannelTopology whole(a.topology, a.mesh.sharpness, uv_of(a).corners, rule_of(a));
+  const auto tags = reference::cut_and_hold(whole, a.mesh.sharpness.triangles).tags;
+  const auto ends_there = [&](const auto& beyond) {
+    return std::any_of(tags.edges.begin(), tags.edges.end(), [&](const auto& e) {
+      return (e.a == beyond.vertex || e.b == beyond.vertex) &&
+             e.sharpness.as_double() != beyond.sharpness.as_double();
+    });
+  };
+  return std::none_of(tags.beyond.begin(), tags.beyond.end(), [](const auto& b) { return b.holds; }) &&
+         std::any_of(tags.beyond.begin(), tags.beyond.end(), ends_there);
+}
+
 // The channel by another rule on some faces of the control mesh.
 Change on_faces(const char* name, const char* description, ChannelRule rule,
                 std::function<bool(A, std::size_t)> some) {
@@ -248,13 +279,7 @@ Change channels(const char* name, const char* description, std::function<void(Me
     what(m);
   });
   c.on = Change::On::kBoth;
-  c.shows = [what](A a) {
-    const auto& all = a.mesh.channels;
-    return has_two(a.mesh) && changes(a, what) &&
-           std::all_of(all.begin(), all.end(), [&](const Channel& one) {
-             return reference::has_exact_cut(a.mesh, one, one.rule.value_or(data::kUsualChannelRule));
-           });
-  };
+  c.shows = [what](A a) { return has_two(a.mesh) && changes(a, what); };
   return c;
 }
 std::vector<Change> by_several() {
@@ -324,6 +349,16 @@ std::vector<Change> by_places() {
                   on_boundary),
       on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
                                       [](A a, std::size_t f) { return a.is_polygon(f); })),
+      of_channels(
+          deliver("channel_chaikin_in_the_cut",
+                  "by Chaikin's creasing sharpness falls in the mesh that is cut", "channel-positions",
+                  [](A a, D out) {
+                    const Delivered cut = a.again(forgetful_cut(a), {a.depth.begin(), a.depth.end()});
+                    for (std::size_t c = 0; c < 3 * out.triangles.size(); ++c)
+                      std::copy_n(cut.positions[cut.triangles[c / 3][c % 3]].begin(), 2,
+                                  &out.channel_values[2 * c]);
+                  }),
+          [](A a) { return a.deepest > 0 && has_sharpness_across_seams(a); }),
       tags_of_channel("channel_without_tags", "channels know no sharp edges and vertices",
                       [](Tags t) { t = {}; }),
       tags_of_channel("channel_without_sharp_vertices", "channels know no sharp vertices",

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "reference/surface/channel.h"
 #include "verify/mutants/change_rows.h"
 
 namespace limitcheck::verify::rows {
@@ -24,10 +23,6 @@ inline data::ChannelRule rule_of(A a) {
 inline bool has_uv(const data::ControlMesh& mesh) {
   return mesh.channels.size() == 1 && mesh.channels[0].components == 2;
 }
-/// Whether a subject is handed it: see Session.
-inline bool has_channel(A a) {
-  return has_uv(a.mesh) && reference::has_exact_cut(a.mesh, uv_of(a), rule_of(a));
-}
 
 inline Change of_channels(Change c, std::function<bool(A)> shows = {}) {
   c.on = Change::On::kBoth;
@@ -41,7 +36,7 @@ inline Change of_channels(Change c, std::function<bool(A)> shows = {}) {
       if (!has_uv(m)) nowhere("channel");
       what(a, m);
     };
-  c.shows = [shows = std::move(shows)](A a) { return has_channel(a) && (!shows || shows(a)); };
+  c.shows = [shows = std::move(shows)](A a) { return has_uv(a.mesh) && (!shows || shows(a)); };
   return c;
 }
 

@@ -86,7 +86,7 @@ TEST(ChannelRows, HaveACommandThatEvaluatesTheChannel) {
 // Right ones hold on every fourth of the plan's meshes, and on all where Chaikin's creasing goes across seams; derivatives
 // stay below a tenth of their bound.
 TEST(ChannelRows, OfRightSubjectsHoldOnThePlan) {
-  int across_seams = 0, with_channel = 0;
+  int across_seams = 0, with_channel = 0, fell_in_the_cut = 0;
   double worst = 0;
   for (const AuditMesh& m : default_plan(Level::kStandard)) {
     if (m.mesh.channels.empty()) continue;
@@ -96,6 +96,9 @@ TEST(ChannelRows, OfRightSubjectsHoldOnThePlan) {
     if (!across && with_channel % 4 != 0) continue;
     AuditMesh quick = m;
     quick.relations = false, quick.asked_again = false;
+    if (across)
+      for (const Result& r : audited(with_fault("channel_chaikin_in_the_cut"), quick))
+        fell_in_the_cut += r.check == "channel-positions" && r.status == Status::kFinding;
     for (const Result& r : audited(naive(), quick)) {
       if (!r.check.starts_with("channel-")) continue;
       EXPECT_EQ(r.status, Status::kHeld) << m.name << " " << r.check << ": " << r.message;
@@ -104,6 +107,7 @@ TEST(ChannelRows, OfRightSubjectsHoldOnThePlan) {
     }
   }
   EXPECT_GE(across_seams, 10);
+  EXPECT_GE(fell_in_the_cut, 4);
   EXPECT_LE(worst, .1);
   RecordProperty("worst", fmt::format("{:.3g}", worst));
 }

@@ -243,12 +243,14 @@ class NaiveSubject {
   // Of each corner of each triangle; of the values of one point on one side of a seam the first in the order of their
   // bits is taken, as of positions. Channels are evaluated by the reference, three components at a time.
   void put_channel(const data::Channel& channel, const std::vector<std::unique_ptr<Face>>& faces,
-                   std::span<const std::int32_t> depth, double* to, double* derivatives) const {
+                   std::span<const std::int32_t> depth, double* to, double* derivatives) {
     const data::Faces cut = reference::faces_of_cut(mesh_, channel);
     const data::ChannelRule rule = channel.rule.value_or(data::kUsualChannelRule);
     for (int first = 0; first < channel.components; first += 3) {
       const int count = std::min(3, channel.components - first);
-      const reference::ChannelSurface surface(mesh_, channel.some(first, count), rule, scheme_);
+      const reference::ChannelSurface& surface =
+          channels_.try_emplace({&channel, first}, mesh_, channel.some(first, count), rule, scheme_)
+              .first->second;
       const auto evaluate = [&](std::size_t f, const FaceDomain::Point& at) {
         const double n =
             std::max(1., static_cast<double>(domain(f).denominator(std::int64_t{1} << depth[f])));
@@ -309,6 +311,8 @@ class NaiveSubject {
   const data::Scheme scheme_;
   const Subdivider subdivider_;
   const Sides sides_;
+  // Of a channel from a component on, made when first asked for.
+  std::map<std::pair<const data::Channel*, int>, const reference::ChannelSurface> channels_;
 };
 
 }  // namespace

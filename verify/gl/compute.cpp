@@ -136,7 +136,7 @@ std::vector<std::byte> GuardedBuffer::read() const {
   return content;
 }
 
-std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_t patches,
+std::vector<std::int32_t> captured_patches(const GlProgram& program, const GlPatches& patches,
                                            std::size_t words) {
   std::vector<std::int32_t> all;
   GLuint buffer = 0;
@@ -145,11 +145,13 @@ std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_
   glCreateQueries(GL_PRIMITIVES_GENERATED, 1, query.data());
   glCreateQueries(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, 1, query.data() + 1);
   glEnable(GL_RASTERIZER_DISCARD);
-  glPatchParameteri(GL_PATCH_VERTICES, 1);
+  glPatchParameteri(GL_PATCH_VERTICES, patches.points);
   program.use();
   std::size_t room = 0;  // bytes
-  for (std::int64_t first = 0; first < patches; first += kMostPatches) {
-    program.set("lc_first_patch", static_cast<std::int32_t>(first));
+  const std::int64_t most = kMostPatches / patches.points;
+  for (std::int64_t first = 0; first < patches.count; first += most) {
+    program.set("lc_first_patch", static_cast<std::int32_t>(patches.first + first));
+    const auto drawn = static_cast<GLsizei>(patches.points * std::min(most, patches.count - first));
     std::array<GLuint, 2> primitives{1, 0};
     while (primitives[0] > primitives[1]) {  // how many there are the shader decides
       room = std::max(room, static_cast<std::size_t>(primitives[0]) * 3 * words * sizeof(std::int32_t));
@@ -158,7 +160,12 @@ std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_
       glBeginQuery(GL_PRIMITIVES_GENERATED, query[0]);
       glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, query[1]);
       glBeginTransformFeedback(GL_TRIANGLES);
-      glDrawArrays(GL_PATCHES, 0, static_cast<GLsizei>(std::min(kMostPatches, patches - first)));
+      if (patches.first_index < 0)
+        glDrawArrays(GL_PATCHES, 0, drawn);
+      else
+        glDrawElements(
+            GL_PATCHES, drawn, GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(sizeof(GLuint) * (patches.first_index + first * patches.points)));
       glEndTransformFeedback();
       glEndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
       glEndQuery(GL_PRIMITIVES_GENERATED);

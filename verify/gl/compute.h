@@ -75,10 +75,18 @@ class GuardedBuffer {
   GLuint name_ = 0;
 };
 
-/// What transform feedback captured of patches of one vertex each, drawn as triangles: `words` numbers for each vertex.
-/// They are drawn at most `kMostPatches` at a time, the first one's number in the uniform lc_first_patch: Mesa's
-/// llvmpipe numbers the patches of a call anew from 0 after 1024.
-std::vector<std::int32_t> captured_patches(const GlProgram& program, std::int64_t patches, std::size_t words);
+/// Patches to be drawn, the first one's number in the uniform lc_first_patch.
+struct GlPatches {
+  std::int64_t count, first = 0;
+  int points = 1;                 // of each
+  std::int64_t first_index = -1;  // among the indices of the bound array of vertices; below 0: no indices
+};
+
+/// What transform feedback captured of patches, drawn as triangles: `words` numbers for each vertex. With one point
+/// each they are drawn at most `kMostPatches` at a time, with more points fewer: Mesa's llvmpipe numbers the patches of
+/// a call anew from 0 after 1024 vertices.
+std::vector<std::int32_t> captured_patches(const GlProgram& program, const GlPatches& patches,
+                                           std::size_t words);
 inline constexpr std::int64_t kMostPatches = 1024;
 
 /// Throws if OpenGL has reported an error since it was asked last.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OpenSubdiv's evaluators for OpenGL: limit stencils, or patches, as compute shaders or by transform feedback. All is
-// made as for opensubdiv-far-patches, and the last step done on the device.
+// OpenSubdiv's evaluators for OpenGL: limit stencils, or patches, as compute shaders or by transform feedback; and its
+// tessellation shaders. All is made as for opensubdiv-far-patches, and the last step done on the device.
 #include <epoxy/gl.h>
 
 #include <opensubdiv/osd/bufferDescriptor.h>
@@ -17,6 +17,7 @@
 
 #include "verify/gl/compute.h"
 #include "verify/gl/context.h"
+#include "verify/peers/opensubdiv_gl_tessellation.h"
 #include "verify/peers/opensubdiv_patches.h"
 #include "verify/subject/devices.h"
 #include "verify/subject/registry.h"
@@ -63,7 +64,13 @@ class OpenSubdivGlSubject {
     const Settings settings(options);
     const CurrentGl there_is_one;
     Devices::note("opensubdiv-gl", gl_device());
-    return {LC_FLOAT32, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
+    lc_capabilities c{LC_FLOAT32, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
+    if (settings.path == kTessellation) {
+      c.max_depth = kDeepestOpenSubdivTessellation;
+      c.per_face_depth = 0;
+      c.points_anywhere = 1;
+    }
+    return c;
   }
 
   OpenSubdivGlSubject(const lc_mesh& mesh, Options& options)
@@ -71,6 +78,7 @@ class OpenSubdivGlSubject {
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const CurrentGl gl;
+    if (settings_.path == kTessellation) return tessellate_on_device(request, out);
     const FacePatterns patterns(mesh_, request, opensubdiv_triangle);
     const Evaluated evaluated(patterns.vertices());
     if (settings_.feedback)
@@ -84,36 +92,24 @@ class OpenSubdivGlSubject {
   }
 
  private:
+  enum Path : std::uint8_t { kStencils, kPatches, kTessellation };
   struct Settings {
     explicit Settings(Options& options)
-        : by_patches(options.choice("path", {"stencils", "patches"}) == 1),
+        : path(static_cast<Path>(options.choice("path", {"stencils", "patches", "tess"}))),
           feedback(options.choice("evaluator", {"compute", "xfb"}) == 1),
           patches(patch_options(options)) {}
-    bool by_patches, feedback;
+    Path path;
+    bool feedback;
     Far::PatchTableFactory::Options patches;
   };
 
+  static void check(bool done) {
+    if (!done) throw SubjectError(LC_FAILED, "OpenSubdiv could not make or run its shaders");
+  }
+
+  // The points of the control mesh, of all levels and of the end caps, which patches name: by stencils of their own.
   template <class Evaluator, class StencilTable>
-  void run(const FacePatterns& patterns, const Evaluated& to) const {
-    void* const kNoContext = nullptr;
-    const Osd::BufferDescriptor points(0, 3, 3);
-    const auto check = [](bool done) {
-      if (!done) throw SubjectError(LC_FAILED, "OpenSubdiv could not make or run its shaders");
-    };
-    std::vector<float> control(mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count);
-    const std::unique_ptr<Evaluator> evaluator(Evaluator::Create(points, points, points, points, kNoContext));
-    check(evaluator != nullptr);
-    if (patterns.vertices() == 0) return;
-    if (!settings_.by_patches) {
-      const VertexBuffer from(mesh_.vertex_count);
-      from.write(control.data(), control.size() * sizeof control[0]);
-      const auto stencils = patches_.limit_stencils<float>(patterns);
-      const StencilTable table(static_cast<const Far::LimitStencilTable*>(stencils.get()));
-      check(Evaluator::EvalStencils(&from, points, &to.position, points, &to.du, points, &to.dv, points,
-                                    &table, evaluator.get()));
-      return;
-    }
-    // The points of all levels, then those of the end caps, by stencils of their own.
+  VertexBuffer points_of_patches() const {
     Far::StencilTableFactory::Options options;
     options.generateOffsets = options.generateIntermediateLevels = true;
     std::unique_ptr<const Far::StencilTable> stencils(
@@ -122,16 +118,66 @@ class OpenSubdivGlSubject {
       if (const Far::StencilTable* const all = Far::StencilTableFactory::AppendLocalPointStencilTable(
               *patches_.refiner, stencils.get(), local))
         stencils.reset(all);
-    const VertexBuffer from(mesh_.vertex_count + stencils->GetNumStencils());
-    from.write(control.data(), control.size() * sizeof control[0]);
+    VertexBuffer points(mesh_.vertex_count + stencils->GetNumStencils());
+    points.write(control_.data(), control_.size() * sizeof control_[0]);
     if (stencils->GetNumStencils() > 0) {
+      const Osd::BufferDescriptor front(0, 3, 3), behind(static_cast<int>(3 * mesh_.vertex_count), 3, 3),
+          none;
+      // An evaluator is what loads OpenGL's functions for the library: before its tables.
+      const std::unique_ptr<Evaluator> refine(Evaluator::Create(front, behind, none, none, kNoContext));
+      check(refine != nullptr);
       const StencilTable table(stencils.get());
-      const Osd::BufferDescriptor behind(static_cast<int>(3 * mesh_.vertex_count), 3, 3);
-      const std::unique_ptr<Evaluator> refine(
-          Evaluator::Create(points, behind, Osd::BufferDescriptor(), Osd::BufferDescriptor(), kNoContext));
-      check(refine != nullptr && Evaluator::EvalStencils(&from, points, &from, behind, &table, refine.get()));
+      check(Evaluator::EvalStencils(&points, front, &points, behind, &table, refine.get()));
     }
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
+    return points;
+  }
+  std::unique_ptr<const Osd::GLPatchTable> device_patches() const {
+    std::unique_ptr<const Osd::GLPatchTable> table(Osd::GLPatchTable::Create(patches_.table.get()));
+    check(table != nullptr);
+    return table;
+  }
+
+  // Faces that are culled are drawn with the others, and left out here.
+  void tessellate_on_device(const lc_request& request, lc_tessellation& out) const {
+    const VertexBuffer points = settings_.feedback
+                                    ? points_of_patches<Osd::GLXFBEvaluator, Osd::GLStencilTableTBO>()
+                                    : points_of_patches<Osd::GLComputeEvaluator, Osd::GLStencilTableSSBO>();
+    std::vector<std::array<std::int32_t, 2>> face_and_part;
+    std::int32_t depth = 0;
+    for (std::int32_t f = 0; f < mesh_.face_count; ++f) {
+      depth = std::max(depth, request.face_depth[f]);
+      const bool cut = mesh_.scheme == LC_SCHEME_CATMULL_CLARK && mesh_.face_sizes[f] != 4;
+      for (std::int32_t part = 0; part < (cut ? mesh_.face_sizes[f] : 1); ++part)
+        face_and_part.push_back({f, part});
+    }
+    const auto vertices = tessellate_patches(*device_patches(), points, 1 << depth);
+    DeliveredArrays made;
+    for (const OpenSubdivTessellated& v : vertices) {
+      const auto [face, part] = face_and_part.at(static_cast<std::size_t>(v.ptex_face));
+      if (request.face_depth[face] < 0) continue;
+      const auto number = made.add_vertex(v.position, v.normal, nearest_place(face, v.u, v.v), part);
+      if (number % 3 == 2) made.add_triangle({number - 2, number - 1, number}, face);
+    }
+    made.hand_over<float>(request, out, true, mesh_.scheme == LC_SCHEME_CATMULL_CLARK);
+  }
+
+  template <class Evaluator, class StencilTable>
+  void run(const FacePatterns& patterns, const Evaluated& to) const {
+    const Osd::BufferDescriptor points(0, 3, 3);
+    const std::unique_ptr<Evaluator> evaluator(Evaluator::Create(points, points, points, points, kNoContext));
+    check(evaluator != nullptr);
+    if (patterns.vertices() == 0) return;
+    if (settings_.path == kStencils) {
+      const VertexBuffer from(mesh_.vertex_count);
+      from.write(control_.data(), control_.size() * sizeof control_[0]);
+      const auto stencils = patches_.limit_stencils<float>(patterns);
+      const StencilTable table(static_cast<const Far::LimitStencilTable*>(stencils.get()));
+      check(Evaluator::EvalStencils(&from, points, &to.position, points, &to.du, points, &to.dv, points,
+                                    &table, evaluator.get()));
+      return;
+    }
+    const VertexBuffer from = points_of_patches<Evaluator, StencilTable>();
     std::vector<Osd::PatchCoord> places;
     for (std::int64_t f = 0; f < patterns.faces(); ++f)
       if (const FacePattern* const pattern = patterns.of(f).pattern; pattern != nullptr)
@@ -142,13 +188,15 @@ class OpenSubdivGlSubject {
         }
     const VertexBuffer coordinates(patterns.vertices(), sizeof(Osd::PatchCoord));
     coordinates.write(places.data(), places.size() * sizeof places[0]);
-    const std::unique_ptr<Osd::GLPatchTable> table(Osd::GLPatchTable::Create(patches_.table.get()));
-    check(table != nullptr && Evaluator::EvalPatches(&from, points, &to.position, points, &to.du, points,
-                                                     &to.dv, points, static_cast<int>(places.size()),
-                                                     &coordinates, table.get(), evaluator.get()));
+    const auto table = device_patches();
+    check(Evaluator::EvalPatches(&from, points, &to.position, points, &to.du, points, &to.dv, points,
+                                 static_cast<int>(places.size()), &coordinates, table.get(),
+                                 evaluator.get()));
   }
 
+  static constexpr void* kNoContext = nullptr;
   const lc_mesh mesh_;
+  const std::vector<float> control_{mesh_.positions, mesh_.positions + 3 * mesh_.vertex_count};
   const Settings settings_;
   const OpenSubdivPatches patches_;
 };
@@ -157,8 +205,10 @@ class OpenSubdivGlSubject {
 
 extern "C" const lc_subject* lc_subject_opensubdiv_gl() {
   static const lc_subject subject = make_subject<OpenSubdivGlSubject>(
-      "opensubdiv-gl", "OpenSubdiv 3.5 on OpenGL: limit stencils or patches, evaluated by shaders",
-      "path=stencils|patches (default stencils), evaluator=compute|xfb: compute shaders or transform "
+      "opensubdiv-gl",
+      "OpenSubdiv 3.5 on OpenGL: limit stencils or patches by shaders, or tessellation shaders",
+      "path=stencils|patches|tess (default stencils; tess: tessellation shaders, points off the lattice), "
+      "evaluator=compute|xfb: compute shaders or transform "
       "feedback (default compute), level=N of isolation (1 to 10, default 2), end-cap=gregory|bspline "
       "(default gregory), boundary=edge|none (default edge; none is the library's: closed meshes only)");
   return lack_of_gl().empty() ? &subject : nullptr;

@@ -225,7 +225,7 @@ class ShaderSubject {
     const GlProgram& program = *programs(mesh_.scheme).front();
     begin(program, 0, 0, 0);
     const auto patches = static_cast<std::int64_t>((words.size() - half_edges_.words.size()) / kPatchWords);
-    const std::vector<std::int32_t> put = captured_patches(program, patches, kPutWords);
+    const std::vector<std::int32_t> put = captured_patches(program, {.count = patches}, kPutWords);
     const auto vertices = static_cast<std::int64_t>(put.size() / kPutWords);
     const auto output =
         allocate_output<float>(request, out, vertices, vertices / 3, the_source->normals, /*corners=*/!loop);
@@ -234,29 +234,11 @@ class ShaderSubject {
       std::memcpy(output.positions + 3 * k, v, 12);
       if (output.normals != nullptr) std::memcpy(output.normals + 3 * k, v + 3, 12);
       const std::int32_t face = v[6], corner = v[7];
-      const bool exists = face >= 0 && face < mesh_.face_count;
-      const bool cut = !loop && exists && mesh_.face_sizes[face] != 4;
-      output.provenance[k] = place(face, std::bit_cast<float>(v[8]), std::bit_cast<float>(v[9]),
-                                   std::max(1, (1 << counts_.depth) >> (cut ? 1 : 0)));
+      output.provenance[k] = nearest_place(face, std::bit_cast<float>(v[8]), std::bit_cast<float>(v[9]));
       if (output.corner != nullptr) output.corner[k] = corner;
       output.triangles[k] = static_cast<std::uint32_t>(k);
       if (k % 3 == 0) output.triangle_face[k / 3] = face;
     }
-  }
-  // A lattice point, or the fraction over 2^30 that is nearest.
-  static lc_provenance place(std::int32_t face, float u, float v, std::int32_t steps) {
-    const auto over = [&](std::int64_t denominator) {
-      const auto whole = [&](float x) {
-        return static_cast<std::uint32_t>(std::fmax(
-            0.0, std::fmin(std::nearbyint(static_cast<double>(x) * static_cast<double>(denominator)), 4e9)));
-      };
-      return lc_provenance{face, whole(u), whole(v), static_cast<std::uint32_t>(denominator)};
-    };
-    const lc_provenance near = over(steps);
-    const auto exactly = [&](float x, std::uint32_t i) {
-      return static_cast<double>(x) * steps == static_cast<double>(i);
-    };
-    return exactly(u, near.i) && exactly(v, near.j) ? near : over(std::int64_t{1} << 30);
   }
 
   const lc_mesh& mesh_;

@@ -80,6 +80,16 @@ inline int uniform_depth(const lc_request& request, const lc_mesh& mesh) {
   return mesh.face_count > 0 ? request.face_depth[0] : 0;
 }
 
+/// The fraction over 2^30 that is nearest to (u, v): that point, where they are multiples of 2^-30.
+inline lc_provenance nearest_place(std::int32_t face, float u, float v) {
+  constexpr std::uint32_t kOver = 1U << 30;
+  const auto whole = [](float x) {
+    return static_cast<std::uint32_t>(
+        std::fmax(0.0, std::fmin(std::nearbyint(static_cast<double>(x) * kOver), 4e9)));
+  };
+  return {face, whole(u), whole(v), kOver};
+}
+
 /// Allocates from the host and announces the arrays in `out`. Throws SubjectError if the host has no memory,
 /// or the vertices outnumber 32-bit indices.
 ///   corners  the provenance names corners of faces that are no quads

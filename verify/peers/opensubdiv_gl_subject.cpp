@@ -67,7 +67,7 @@ class OpenSubdivGlSubject {
     lc_capabilities c{LC_FLOAT32, LC_WEIGHTS_LOOP, boundary_of(options), LC_POINTS_LIMIT, 10, 1, 1, 0};
     if (settings.path == kTessellation) {
       c.max_depth = kDeepestOpenSubdivTessellation;
-      c.per_face_depth = 0;
+      c.per_face_depth = 0;  // OpenSubdiv's uniform level is one for all
       c.points_anywhere = 1;
     }
     return c;
@@ -138,24 +138,20 @@ class OpenSubdivGlSubject {
     return table;
   }
 
-  // Faces that are culled are drawn with the others, and left out here.
   void tessellate_on_device(const lc_request& request, lc_tessellation& out) const {
     const VertexBuffer points = settings_.feedback
                                     ? points_of_patches<Osd::GLXFBEvaluator, Osd::GLStencilTableTBO>()
                                     : points_of_patches<Osd::GLComputeEvaluator, Osd::GLStencilTableSSBO>();
     std::vector<std::array<std::int32_t, 2>> face_and_part;
-    std::int32_t depth = 0;
     for (std::int32_t f = 0; f < mesh_.face_count; ++f) {
-      depth = std::max(depth, request.face_depth[f]);
       const bool cut = mesh_.scheme == LC_SCHEME_CATMULL_CLARK && mesh_.face_sizes[f] != 4;
       for (std::int32_t part = 0; part < (cut ? mesh_.face_sizes[f] : 1); ++part)
         face_and_part.push_back({f, part});
     }
-    const auto vertices = tessellate_patches(*device_patches(), points, 1 << depth);
     DeliveredArrays made;
-    for (const OpenSubdivTessellated& v : vertices) {
+    for (const OpenSubdivTessellated& v :
+         tessellate_patches(*device_patches(), points, 1 << uniform_depth(request, mesh_))) {
       const auto [face, part] = face_and_part.at(static_cast<std::size_t>(v.ptex_face));
-      if (request.face_depth[face] < 0) continue;
       const auto number = made.add_vertex(v.position, v.normal, nearest_place(face, v.u, v.v), part);
       if (number % 3 == 2) made.add_triangle({number - 2, number - 1, number}, face);
     }

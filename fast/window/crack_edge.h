@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The limit points of one control edge at a depth of its own, along the edge only. [mueller2000, section 5]
+// The rows that a step makes of rows of triangles; and the limit points of one control edge at a depth of its own,
+// along the edge only. [mueller2000, section 5]
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,82 @@
 #include "fast/rules/prepared_mesh.h"
 
 namespace limitcheck::fast {
+
+/// The inner points of a row of n edges between two others: body(i, ring), the six neighbours of line[i] along the row,
+/// or along the pair's diagonal in the column where that meets the row. The apex over the edge from line[i] is
+/// above[i + 1], the apex under it below[i].
+template <class N, class Body>
+void for_inner_points(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
+                      Body&& body) {
+  const auto row = [&](int from, int to) {
+    for (int i = from; i < to; ++i)
+      body(i, AxisRing<N>{line[i + 1], above[i + 1], above[i], line[i - 1], below[i - 1], below[i]});
+  };
+  const int d = diagonal > 0 ? std::min(diagonal, n) : n;
+  row(1, d);
+  if (d == n) return;
+  body(d, AxisRing<N>{above[d + 1], above[d], line[d - 1], below[d - 1], below[d], line[d + 1]});
+  row(d + 1, n);
+}
+
+/// A row of n edges becomes one of 2 n.
+///   diagonal       the column where the pair's diagonal meets it
+///   above, below   the rows next to it; null beyond a boundary
+template <class N, class Corner>
+void refine_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
+                const Corner& left, const Corner& right, Vec3<N>* out) {
+  out[0] = subdivide_corner(line[0], left);
+  out[2 * n] = subdivide_corner(line[n], right);
+  if (above == nullptr || below == nullptr) {
+    for (int i = 1; i < n; ++i) out[2 * i] = curve_vertex(line[i], line[i + 1], line[i - 1]);
+    for (int i = 0; i < n; ++i) out[2 * i + 1] = midpoint(line[i], line[i + 1]);
+    return;
+  }
+  const auto edge = [&](int i) { out[2 * i + 1] = edge_point(line[i], line[i + 1], above[i + 1], below[i]); };
+  edge(0);
+  for_inner_points(n, diagonal, line, above, below, [&](int i, const AxisRing<N>& ring) {
+    out[2 * i] = regular_vertex(line[i], ring);
+    edge(i);
+  });
+}
+
+/// The apexes over or under the edges of a row become 2 n: before the first and after the last there is a face, or
+/// none.
+template <class N>
+void refine_flap(int n, const Vec3<N>* line, const Vec3<N>* apex, bool has_before, const Vec3<N>& before,
+                 bool has_after, const Vec3<N>& after, Vec3<N>* out) {
+  out[0] = has_before ? edge_point(line[0], apex[0], line[1], before) : midpoint(line[0], apex[0]);
+  for (int i = 1; i < n; ++i) {
+    out[2 * i - 1] = edge_point(apex[i - 1], line[i], line[i - 1], apex[i]);
+    out[2 * i] = edge_point(line[i], apex[i], line[i + 1], apex[i - 1]);
+  }
+  out[2 * n - 1] =
+      has_after ? edge_point(apex[n - 1], line[n], line[n - 1], after) : midpoint(apex[n - 1], line[n]);
+}
+
+/// Limit vertices of a row into out[0], out[step], .., out[step * n].
+template <class N, class Surface, class Corner>
+void limit_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
+               const Corner& left, const Corner& right, int step, typename Surface::Vertex* out,
+               std::int64_t& zero_normals) {
+  out[0] = limit_corner<N, Surface>(line[0], left, zero_normals);
+  out[step * n] = limit_corner<N, Surface>(line[n], right, zero_normals);
+  if (above == nullptr) {
+    for (int i = 1; i < n; ++i)
+      out[step * i] = boundary_vertex_limit<N, Surface>(line[i], line[i - 1], below[i - 1], below[i],
+                                                        line[i + 1], zero_normals);
+    return;
+  }
+  if (below == nullptr) {
+    for (int i = 1; i < n; ++i)
+      out[step * i] = boundary_vertex_limit<N, Surface>(line[i], line[i + 1], above[i + 1], above[i],
+                                                        line[i - 1], zero_normals);
+    return;
+  }
+  for_inner_points(n, diagonal, line, above, below, [&](int i, const AxisRing<N>& ring) {
+    out[step * i] = regular_vertex_limit<N, Surface>(line[i], ring, zero_normals);
+  });
+}
 
 /// A strip of three rows along an edge needs nothing else to be subdivided but the rings of its two ends:
 ///
@@ -53,16 +130,8 @@ class EdgeStrip {
       std::swap(from, to);
     }
     const int n = 1 << depth;
-    out[0] = *from->left.limit;
-    out[n] = *from->right.limit;
-    const Vec3<N>*line = from->line, *up = from->up;
-    for (int i = 1; i < n; ++i) {
-      if (has_down_)
-        out[i] = regular_vertex_limit<N, Surface>(line[i], axis(*from, i), zero_normals_);
-      else
-        out[i] = boundary_vertex_limit<N, Surface>(line[i], line[i + 1], up[i], up[i - 1], line[i - 1],
-                                                   zero_normals_);
-    }
+    limit_row<N, Surface>(n, 0, from->line, from->up - 1, down(*from), from->left, from->right, 1, out,
+                          zero_normals_);
   }
 
   std::int64_t zero_normals() const { return zero_normals_; }
@@ -74,9 +143,8 @@ class EdgeStrip {
     Ring left, right;  // slot 0 along the line
   };
 
-  static AxisRing<N> axis(const Rows& r, int i) {
-    return {r.line[i + 1], r.up[i], r.up[i - 1], r.line[i - 1], r.down[i - 1], r.down[i]};
-  }
+  /// Null beyond a boundary.
+  const Vec3<N>* down(const Rows& r) const { return has_down_ ? r.down : nullptr; }
 
   void fill(const PreparedMesh<N, Surface>& mesh, std::int32_t h) {
     const Adjacency& adjacency = mesh.adjacency();
@@ -93,34 +161,15 @@ class EdgeStrip {
   }
 
   void refine(int n, const Rows& old, Rows& out) {
-    const Vec3<N>*line = old.line, *up = old.up, *down = old.down;
-    out.line[0] = subdivide_corner(line[0], old.left);
-    out.line[2 * n] = subdivide_corner(line[n], old.right);
-    for (int i = 1; i < n; ++i)
-      out.line[2 * i] =
-          has_down_ ? regular_vertex(line[i], axis(old, i)) : curve_vertex(line[i], line[i + 1], line[i - 1]);
-    for (int i = 0; i < n; ++i)
-      out.line[2 * i + 1] =
-          has_down_ ? edge_point(line[i], line[i + 1], up[i], down[i]) : midpoint(line[i], line[i + 1]);
-    refine_flap(n, line, up, old.left.has_face_after(1), old.left.at(2),
-                old.right.has_face_after(old.right.n - 2), old.right.ring[old.right.n - 2], out.up);
+    const Vec3<N>*line = old.line, *up = old.up;
+    refine_row(n, 0, line, up - 1, down(old), old.left, old.right, out.line);
+    refine_flap<N>(n, line, up, old.left.has_face_after(1), old.left.at(2),
+                   old.right.has_face_after(old.right.n - 2), old.right.ring[old.right.n - 2], out.up);
     if (has_down_)
-      refine_flap(n, line, down, old.left.has_face_after(old.left.n - 2), old.left.ring[old.left.n - 2],
-                  old.right.has_face_after(1), old.right.at(2), out.down);
+      refine_flap<N>(n, line, old.down, old.left.has_face_after(old.left.n - 2),
+                     old.left.ring[old.left.n - 2], old.right.has_face_after(1), old.right.at(2), out.down);
     subdivide_ring(line[0], old.left, out.left);
     subdivide_ring(line[n], old.right, out.right);
-  }
-
-  /// The apexes over the edges of the line: before the first and after the last there is a face, or none.
-  static void refine_flap(int n, const Vec3<N>* line, const Vec3<N>* apex, bool has_before,
-                          const Vec3<N>& before, bool has_after, const Vec3<N>& after, Vec3<N>* out) {
-    out[0] = has_before ? edge_point(line[0], apex[0], line[1], before) : midpoint(line[0], apex[0]);
-    for (int i = 1; i < n; ++i) {
-      out[2 * i - 1] = edge_point(apex[i - 1], line[i], line[i - 1], apex[i]);
-      out[2 * i] = edge_point(line[i], apex[i], line[i + 1], apex[i - 1]);
-    }
-    out[2 * n - 1] =
-        has_after ? edge_point(apex[n - 1], line[n], line[n - 1], after) : midpoint(apex[n - 1], line[n]);
   }
 
   int max_depth_, max_valence_;

@@ -9,6 +9,7 @@
 
 #include "data/error.h"
 #include "fast/rules/prepared_mesh.h"
+#include "fast/window/crack_edge.h"
 
 namespace limitcheck::fast {
 
@@ -174,8 +175,16 @@ class SlidingWindow {
     subdivide_ring(bottom[n], corner1, l.corner[1]);
     subdivide_ring(top[n], corner2, l.corner[2]);
     subdivide_ring(top[0], corner3, l.corner[3]);
-    if (outtop != nullptr) refine_outtop(n, top, outtop, corner2, corner3, l);
-    if (outbottom != nullptr) refine_outbottom(n, bottom, outbottom, corner0, corner1, l);
+    if (outtop != nullptr) {
+      refine_flap(n, top, outtop + 1, corner3.has_face_after(1), outtop[0],
+                  corner2.has_face_after(corner2.n - 2), corner2.ring[corner2.n - 2], l.outtop + 1);
+      l.outtop[0] = l.corner[3].at(2);
+    }
+    if (outbottom != nullptr) {
+      refine_flap(n, bottom, outbottom, corner0.has_face_after(corner0.n - 2), corner0.ring[corner0.n - 2],
+                  corner1.has_face_after(1), outbottom[n], l.outbottom);
+      l.outbottom[2 * n] = l.corner[1].at(2);
+    }
     collect_middle_corners(n, corner0, corner2, l);
     probe_.add(&WindowCounts::rows,
                (2 * n + 1) * (3 + (outtop != nullptr ? 1 : 0) + (outbottom != nullptr ? 1 : 0)));
@@ -202,44 +211,6 @@ class SlidingWindow {
                  mcorner0);
   }
 
-  /// The six neighbours of line[i] in a row between two others, along the row, and along the pair's diagonal.
-  static AxisRing<N> along_row(const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, int i) {
-    return {line[i + 1], above[i + 1], above[i], line[i - 1], below[i - 1], below[i]};
-  }
-  static AxisRing<N> along_diagonal(const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below, int i) {
-    return {above[i + 1], above[i], line[i - 1], below[i - 1], below[i], line[i + 1]};
-  }
-
-  /// A row of n edges becomes one of 2 n. `diagonal`: the column where the pair's diagonal meets it.
-  static void refine_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
-                         const Corner& left, const Corner& right, Vec3<N>* out) {
-    out[0] = subdivide_corner(line[0], left);
-    out[2 * n] = subdivide_corner(line[n], right);
-    if (above == nullptr || below == nullptr) {
-      for (int i = 1; i < n; ++i) out[2 * i] = curve_vertex(line[i], line[i + 1], line[i - 1]);
-      for (int i = 0; i < n; ++i) out[2 * i + 1] = midpoint(line[i], line[i + 1]);
-      return;
-    }
-    const auto edge = [&](int i) {
-      out[2 * i + 1] = edge_point(line[i], line[i + 1], above[i + 1], below[i]);
-    };
-    const auto regular = [&](int from, int to) {
-      for (int i = from; i < to; ++i) {
-        out[2 * i] = regular_vertex(line[i], along_row(line, above, below, i));
-        edge(i);
-      }
-    };
-    edge(0);
-    if (diagonal > 0 && diagonal < n) {
-      regular(1, diagonal);
-      out[2 * diagonal] = regular_vertex(line[diagonal], along_diagonal(line, above, below, diagonal));
-      edge(diagonal);
-      regular(diagonal + 1, n);
-    } else {
-      regular(1, n);
-    }
-  }
-
   /// The edge points of the upright edges (even) and of the diagonals (odd).
   static void refine_middle(int n, const Vec3<N>* top, const Vec3<N>* bottom, const Corner& corner0,
                             const Corner& corner2, Vec3<N>* out) {
@@ -251,33 +222,6 @@ class SlidingWindow {
     }
     out[2 * n] = corner2.has_face_after(2) ? edge_point(top[n], bottom[n], bottom[n - 1], corner2.at(3))
                                            : midpoint(top[n], bottom[n]);
-  }
-
-  static void refine_outtop(int n, const Vec3<N>* top, const Vec3<N>* outtop, const Corner& corner2,
-                            const Corner& corner3, Level& l) {
-    const bool left = corner3.has_face_after(1), right = corner2.has_face_after(corner2.n - 2);
-    l.outtop[1] = left ? edge_point(top[0], outtop[1], top[1], outtop[0]) : midpoint(top[0], outtop[1]);
-    for (int i = 1; i < n; ++i) {
-      l.outtop[2 * i] = edge_point(outtop[i], top[i], top[i - 1], outtop[i + 1]);
-      l.outtop[2 * i + 1] = edge_point(top[i], outtop[i + 1], top[i + 1], outtop[i]);
-    }
-    l.outtop[2 * n] = right ? edge_point(outtop[n], top[n], top[n - 1], corner2.ring[corner2.n - 2])
-                            : midpoint(outtop[n], top[n]);
-    l.outtop[0] = l.corner[3].at(2);
-  }
-
-  static void refine_outbottom(int n, const Vec3<N>* bottom, const Vec3<N>* outbottom, const Corner& corner0,
-                               const Corner& corner1, Level& l) {
-    const bool left = corner0.has_face_after(corner0.n - 2), right = corner1.has_face_after(1);
-    l.outbottom[0] = left ? edge_point(bottom[0], outbottom[0], bottom[1], corner0.ring[corner0.n - 2])
-                          : midpoint(bottom[0], outbottom[0]);
-    for (int i = 1; i < n; ++i) {
-      l.outbottom[2 * i - 1] = edge_point(outbottom[i - 1], bottom[i], bottom[i - 1], outbottom[i]);
-      l.outbottom[2 * i] = edge_point(bottom[i], outbottom[i], bottom[i + 1], outbottom[i - 1]);
-    }
-    l.outbottom[2 * n - 1] = right ? edge_point(outbottom[n - 1], bottom[n], bottom[n - 1], outbottom[n])
-                                   : midpoint(outbottom[n - 1], bottom[n]);
-    l.outbottom[2 * n] = l.corner[1].at(2);
   }
 
   /// The rings of middle's two ends: copies of points just computed.
@@ -315,42 +259,15 @@ class SlidingWindow {
         strip_[2 * static_cast<std::size_t>(i)] = strip_[2 * static_cast<std::size_t>(i) + 1];
       probe_.add(&WindowCounts::carried, n + 1);
     } else {
-      limit_row(n, n - row, top, outtop, bottom, corner3, corner2, strip_.data());
+      limit_row<N, Surface>(n, n - row, top, outtop, bottom, corner3, corner2, 2, strip_.data(),
+                            zero_normals_);
+      probe_.add(&WindowCounts::limit_points, n + 1);
     }
-    limit_row(n, n - row - 1, bottom, top, outbottom, corner0, corner1, strip_.data() + 1);
+    limit_row<N, Surface>(n, n - row - 1, bottom, top, outbottom, corner0, corner1, 2, strip_.data() + 1,
+                          zero_normals_);
+    probe_.add(&WindowCounts::limit_points, n + 1);
     probe_.add(&WindowCounts::strips, 1);
     sink(row, strip_.data());
-  }
-
-  /// Limit vertices of a row into every other place of the strip.
-  void limit_row(int n, int diagonal, const Vec3<N>* line, const Vec3<N>* above, const Vec3<N>* below,
-                 const Corner& left, const Corner& right, Vertex* out) {
-    out[0] = limit_corner<N, Surface>(line[0], left, zero_normals_);
-    out[2 * n] = limit_corner<N, Surface>(line[n], right, zero_normals_);
-    if (above == nullptr) {
-      for (int i = 1; i < n; ++i)
-        out[2 * i] = boundary_vertex_limit<N, Surface>(line[i], line[i - 1], below[i - 1], below[i],
-                                                       line[i + 1], zero_normals_);
-    } else if (below == nullptr) {
-      for (int i = 1; i < n; ++i)
-        out[2 * i] = boundary_vertex_limit<N, Surface>(line[i], line[i + 1], above[i + 1], above[i],
-                                                       line[i - 1], zero_normals_);
-    } else {
-      const auto regular = [&](int from, int to) {
-        for (int i = from; i < to; ++i)
-          out[2 * i] =
-              regular_vertex_limit<N, Surface>(line[i], along_row(line, above, below, i), zero_normals_);
-      };
-      if (diagonal > 0 && diagonal < n) {
-        regular(1, diagonal);
-        out[2 * diagonal] = regular_vertex_limit<N, Surface>(
-            line[diagonal], along_diagonal(line, above, below, diagonal), zero_normals_);
-        regular(diagonal + 1, n);
-      } else {
-        regular(1, n);
-      }
-    }
-    probe_.add(&WindowCounts::limit_points, n + 1);
   }
 
   int max_depth_, max_valence_;

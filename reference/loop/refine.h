@@ -47,13 +47,15 @@ class RefinedMesh {
   void refine();
 
   int depth() const { return depth_; }
-  std::size_t face_count() const { return face_count_; }  ///< of the control mesh
   const std::vector<Vec3<N>>& positions() const { return positions_; }
   /// 4^depth per control face, one face after the other: first the triangles (i, j) (i+1, j) (i, j+1), j
   /// outer, i inner, then (i+1, j) (i+1, j+1) (i, j+1) likewise.
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  data::Triangles triangles() const { return data::Triangles(topology_.faces()); }
   std::int32_t vertex(std::size_t face, int i, int j) const {
-    return lattice_[face * points_per_face() + point(i, j)];
+    const bool at_side = i + j == (1 << depth_);
+    const bool at_top = at_side && j > 0;  // a corner of the last one of its row
+    const auto triangle = topology_.faces()[upright(face, i - (at_side && !at_top), j - at_top)];
+    return triangle[at_top ? 2 : at_side];
   }
   const Topology& topology() const { return topology_; }
 
@@ -67,23 +69,15 @@ class RefinedMesh {
   Limits limits() const;
 
  private:
-  std::size_t points_per_face() const {
-    const auto k = std::size_t{1} << depth_;
-    return (k + 1) * (k + 2) / 2;
+  /// The triangle (i, j) (i+1, j) (i, j+1).
+  std::size_t upright(std::size_t face, int i, int j) const {
+    const std::size_t row = j, before = (row << depth_) - row * (row - 1) / 2;
+    return (face << (2 * depth_)) + before + i;
   }
-  /// Index of (i, j) among the face's lattice points, rows of equal j.
-  std::size_t point(int i, int j) const {
-    const std::size_t k = std::size_t{1} << depth_, row = j;
-    return row * (k + 1) - row * (row - 1) / 2 + i;
-  }
-  void triangulate();
 
   int depth_ = 0;
   Weights weights_;
-  std::size_t face_count_;
   std::vector<Vec3<N>> positions_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> lattice_;
   Topology topology_;
   std::shared_ptr<const Sharpness> sharpness_;  ///< none in a mesh without tags
 };

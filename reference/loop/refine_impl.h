@@ -63,14 +63,9 @@ template <class N>
 RefinedMesh<N>::RefinedMesh(std::vector<Vec3<N>> positions, std::vector<Triangle> triangles, Weights weights,
                             const SharpTags& tags)
     : weights_(weights),
-      face_count_(triangles.size()),
       positions_(std::move(positions)),
-      triangles_(std::move(triangles)),
-      topology_(positions_.size(), triangles_),
-      sharpness_(tags.empty() ? nullptr : std::make_shared<const Sharpness>(topology_, tags)) {
-  lattice_.reserve(3 * face_count_);
-  for (const Triangle& t : triangles_) lattice_.insert(lattice_.end(), t.begin(), t.end());
-}
+      topology_(positions_.size(), triangles),
+      sharpness_(tags.empty() ? nullptr : std::make_shared<const Sharpness>(topology_, tags)) {}
 
 template <class N>
 void RefinedMesh<N>::refine() {
@@ -81,47 +76,24 @@ void RefinedMesh<N>::refine() {
   std::vector<Vec3<N>> refined = refine_once(topology_, positions_, weights_);
   if (sharpness_) sharpen(topology_, *sharpness_, positions_, refined);
   positions_ = std::move(refined);
-
-  // Lattice points of even coordinates were there before; the others lie on an edge of a triangle (i, j)
-  // (i+1, j) (i, j+1).
-  const std::vector<std::int32_t> old_lattice = std::move(lattice_);
-  const std::size_t old_points = points_per_face(), triangles_per_face = triangles_.size() / face_count_;
-  const int k = 1 << depth_;
-  ++depth_;
-  lattice_.assign(face_count_ * points_per_face(), -1);
-  for (std::size_t f = 0; f < face_count_; ++f) {
-    std::int32_t* to = lattice_.data() + f * points_per_face();
-    const std::int32_t* from = old_lattice.data() + f * old_points;
-    std::size_t triangle = f * triangles_per_face;
-    for (int j = 0; j <= k; ++j)
-      for (int i = 0; i + j <= k; ++i) {
-        to[point(2 * i, 2 * j)] = *from++;
-        if (i + j == k) continue;
-        to[point(2 * i + 1, 2 * j)] = old_vertices + topology_.edge(triangle, 0);
-        to[point(2 * i + 1, 2 * j + 1)] = old_vertices + topology_.edge(triangle, 1);
-        to[point(2 * i, 2 * j + 1)] = old_vertices + topology_.edge(triangle, 2);
-        ++triangle;
-      }
+  data::Faces triangles;
+  triangles.reserve(4 * topology_.faces().size());
+  const int k = 2 << depth_;
+  for (std::size_t f = 0; f < topology_.faces().size() >> (2 * depth_); ++f) {
+    // Lattice points of even coordinates were there before; the others lie on an edge of an upright triangle.
+    const auto at = [&](int i, int j) {
+      if (i % 2 == 0 && j % 2 == 0) return vertex(f, i / 2, j / 2);
+      return old_vertices + topology_.edge(upright(f, i / 2, j / 2), j % 2 == 0 ? 0 : i % 2 == 0 ? 2 : 1);
+    };
+    for (int j = 0; j < k; ++j)
+      for (int i = 0; i + j < k; ++i) triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+    for (int j = 0; j < k; ++j)
+      for (int i = 0; i + j + 1 < k; ++i) triangles.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
   }
-  triangulate();
-  Topology finer(positions_.size(), triangles_);
+  ++depth_;
+  Topology finer(positions_.size(), std::move(triangles));
   if (sharpness_) sharpness_ = std::make_shared<const Sharpness>(sharpness_->refined(topology_, finer));
   topology_ = std::move(finer);
-}
-
-template <class N>
-void RefinedMesh<N>::triangulate() {
-  const int k = 1 << depth_;
-  triangles_.clear();
-  triangles_.reserve(face_count_ << (2 * depth_));
-  for (std::size_t f = 0; f < face_count_; ++f) {
-    for (int j = 0; j < k; ++j)
-      for (int i = 0; i + j < k; ++i)
-        triangles_.push_back({vertex(f, i, j), vertex(f, i + 1, j), vertex(f, i, j + 1)});
-    for (int j = 0; j < k; ++j)
-      for (int i = 0; i + j + 1 < k; ++i)
-        triangles_.push_back({vertex(f, i + 1, j), vertex(f, i + 1, j + 1), vertex(f, i, j + 1)});
-  }
 }
 
 template <class N>

@@ -210,7 +210,7 @@ struct ShapeCase {
       : mesh(mesh_of_shape(name)), surface(mesh, pieces), e{name, mesh, surface, t, 1e-6} {
     const auto refined = reference::refine<double>(mesh, depth);
     for (const auto& p : refined.limits().positions) t.positions.push_back({p.x, p.y, p.z});
-    t.triangles = refined.triangles();
+    t.triangles = refined.triangles().to_vector();
     t.used.assign(t.positions.size(), true);
   }
   Hausdorff run() {

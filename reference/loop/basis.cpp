@@ -55,12 +55,12 @@ void store(std::array<std::array<int, 12>, T>& table, std::size_t function, int 
 
 }  // namespace
 
-const BasisTable& basis_table() {
-  static const BasisTable table = [] {
+const BasisTable<int>& basis_table() {
+  static const BasisTable<int> table = [] {
     Polynomial alpha, beta, gamma;
     alpha.c[1][0][0] = beta.c[0][1][0] = gamma.c[0][0][1] = 1;
     const auto functions = appendix_a(alpha, beta, gamma);
-    BasisTable result{};
+    BasisTable<int> result;
     for (std::size_t f = 0; f < 12; ++f) {
       const Polynomial& p = functions[f];
       const Polynomial pa = derivative(p, true), pb = derivative(p, false);

@@ -54,14 +54,27 @@ std::array<T, 12> appendix_a(const T& alpha, const T& beta, const T& gamma) {
 
 namespace detail {
 
-/// Integer coefficients of the twelve functions and their derivatives over the monomials of degree 4, 3, 2 in
-/// (alpha, beta, gamma), found by running `appendix_a` on polynomials; 12 times the functions.
+/// Coefficients of the twelve functions and their derivatives over the monomials of degree 4, 3, 2 in (alpha,
+/// beta, gamma); 12 times the functions. They are small integers, exact in all number types.
+template <class N>
 struct BasisTable {
-  std::array<std::array<int, 12>, 15> value;
-  std::array<std::array<int, 12>, 10> da, db;
-  std::array<std::array<int, 12>, 6> daa, dab, dbb;
+  std::array<std::array<N, 12>, 15> value{};
+  std::array<std::array<N, 12>, 10> da{}, db{};
+  std::array<std::array<N, 12>, 6> daa{}, dab{}, dbb{};
+
+  BasisTable() = default;
+  template <class M>
+  explicit BasisTable(const BasisTable<M>& t) {
+    const auto copy = [](auto& to, const auto& from) {
+      for (std::size_t m = 0; m < from.size(); ++m)
+        for (std::size_t i = 0; i < 12; ++i) to[m][i] = N(from[m][i]);
+    };
+    copy(value, t.value), copy(da, t.da), copy(db, t.db), copy(daa, t.daa), copy(dab, t.dab),
+        copy(dbb, t.dbb);
+  }
 };
-const BasisTable& basis_table();
+/// Found by running `appendix_a` on polynomials.
+const BasisTable<int>& basis_table();
 
 /// All monomials alpha^i beta^j gamma^k of degree D, in the order of the table: i outer, j
 /// inner, both rising.
@@ -85,34 +98,12 @@ void combine(std::array<N, 12>& result, const std::array<N, T>& monomial,
   for (N& r : result) r *= twelfth;
 }
 
-/// The table in the number type: small integers, exact in all of them.
-template <class N>
-struct BasisCoefficients {
-  std::array<std::array<N, 12>, 15> value;
-  std::array<std::array<N, 12>, 10> da, db;
-  std::array<std::array<N, 12>, 6> daa, dab, dbb;
-
-  BasisCoefficients() {
-    const BasisTable& t = basis_table();
-    const auto copy = [](auto& to, const auto& from) {
-      for (std::size_t m = 0; m < from.size(); ++m)
-        for (std::size_t i = 0; i < 12; ++i) to[m][i] = N(from[m][i]);
-    };
-    copy(value, t.value);
-    copy(da, t.da);
-    copy(db, t.db);
-    copy(daa, t.daa);
-    copy(dab, t.dab);
-    copy(dbb, t.dbb);
-  }
-};
-
 }  // namespace detail
 
 /// Values, and derivatives up to `order`, at (alpha, beta); the rest is left as it was.
 template <class N>
 void evaluate_basis(Basis<N>& result, const N& alpha, const N& beta, Derivatives order) {
-  static const detail::BasisCoefficients<N> table;
+  static const detail::BasisTable<N> table(detail::basis_table());
   std::array<N, 5> a, b, g;
   a[0] = b[0] = g[0] = N(1);
   const N gamma = N(1) - alpha - beta;

@@ -9,8 +9,11 @@
 namespace limitcheck::data {
 namespace {
 
+[[noreturn]] void refuse(std::string_view text, const char* why) {
+  throw ArgumentError("'" + std::string(text.substr(0, 60)) + "' " + why);
+}
 [[noreturn]] void malformed(std::string_view text) {
-  throw InputError("NUMERAL_MALFORMED", "", 0, "not a number: \"" + std::string(text) + "\"");
+  refuse(text, "is not a number");
 }
 
 /// One side of a fraction: mantissa digits without the point, times 10^exponent.
@@ -32,8 +35,9 @@ Decimal decimal(std::string_view text, std::string_view whole) {
     if (!exponent.empty() && exponent[0] == '+') exponent.remove_prefix(1);
     const auto [end, error] =
         std::from_chars(exponent.data(), exponent.data() + exponent.size(), result.exponent);
+    if (error == std::errc::result_out_of_range || std::labs(result.exponent) > 10000)
+      refuse(whole, "has an exponent beyond 10000");
     if (error != std::errc() || end != exponent.data() + exponent.size()) malformed(whole);
-    if (std::labs(result.exponent) > 9999) malformed(whole);
     text = text.substr(0, e);
   }
   const std::size_t point = text.find('.');
@@ -56,7 +60,7 @@ IntegerQuotient integer_quotient(std::string_view text) {
   Decimal top = decimal(text.substr(0, slash), text);
   Decimal bottom{.negative = false, .digits = "1", .exponent = 0};
   if (slash != std::string_view::npos) bottom = decimal(text.substr(slash + 1), text);
-  if (bottom.digits.empty()) malformed(text);
+  if (bottom.digits.empty()) refuse(text, "divides by zero");
   if (top.digits.empty()) return {"0", "1"};
 
   // What powers of ten remain goes to the side where it stays an integer.

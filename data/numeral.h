@@ -23,7 +23,7 @@ struct IntegerQuotient {
 };
 
 /// Exact for every fraction and decimal.
-///   throws   InputError NUMERAL_MALFORMED: not a numeral, a zero denominator, or an exponent beyond +-9999
+///   throws   ArgumentError: not a numeral, a zero denominator, or an exponent beyond +-10000
 IntegerQuotient integer_quotient(std::string_view text);
 
 /// The numeral as an `N`.

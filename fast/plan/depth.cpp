@@ -18,14 +18,6 @@ namespace limitcheck::fast {
 
 namespace {
 
-constexpr std::array<std::pair<Strategy, std::string_view>, 6> kNames{
-    {{Strategy::kUniform, "uniform"},
-     {Strategy::kRandom, "random"},
-     {Strategy::kProjectSphere, "project-sphere"},
-     {Strategy::kCurvature, "curvature"},
-     {Strategy::kCombined, "combined"},
-     {Strategy::kCustom, "custom"}}};
-
 [[noreturn]] void refuse(const std::string& what) {
   throw data::ArgumentError("depth: " + what);
 }
@@ -72,20 +64,9 @@ void TriangleSurface::gather(Ring& ring, std::int32_t v) const {
 }
 
 std::string_view name(Strategy strategy) {
-  for (const auto& [value, text] : kNames) {
-    if (value == strategy) return text;
-  }
-  return "?";
-}
-
-Strategy parse_strategy(std::string_view text) {
-  std::string all;
-  for (const auto& [value, known] : kNames) {
-    if (text == known) return value;
-    all += all.empty() ? "" : ", ";
-    all += known;
-  }
-  refuse("unknown strategy '" + std::string(text) + "'; known: " + all);
+  constexpr std::array<std::string_view, 6> kNames{"uniform",   "random",   "project-sphere",
+                                                   "curvature", "combined", "custom"};
+  return kNames[static_cast<std::size_t>(strategy)];
 }
 
 bool DepthOptions::culls() const {

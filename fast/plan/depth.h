@@ -68,8 +68,6 @@ enum class Strategy {
 
 /// The name on the command line: uniform, random, project-sphere, curvature, combined, custom.
 std::string_view name(Strategy strategy);
-/// Throws data::ArgumentError and lists the names.
-Strategy parse_strategy(std::string_view text);
 
 /// Where the corners of a face look: a corner with limit normal N and limit position L faces away if
 /// N . (L - eye) >= 0. On the silhouette some corners face away and others do not.

@@ -44,14 +44,6 @@ TEST(Camera, RefusesWhatMakesNoView) {
   refused([](Camera& c) { c.eye.x = INFINITY; });
 }
 
-TEST(Depth, NamesAndStrategiesAreInverse) {
-  for (const Strategy s : {Strategy::kUniform, Strategy::kRandom, Strategy::kProjectSphere,
-                           Strategy::kCurvature, Strategy::kCombined, Strategy::kCustom}) {
-    EXPECT_EQ(parse_strategy(name(s)), s);
-  }
-  EXPECT_THROW(parse_strategy("spherical"), data::ArgumentError);
-}
-
 TEST(Depth, UniformIsUniformAndRandomMeetsEveryDepthAboutEquallyOften) {
   const Fixture f(grid_torus(30, 40));
   DepthOptions options{.strategy = Strategy::kUniform, .depth = 2};

@@ -42,8 +42,6 @@ class AlignedFloats {
 /// 143 040 bytes at depth 5 with 16 lanes, whatever the mesh; 156 352 if two rows are kept.
 struct Workspace {
   AlignedFloats input, work, row;
-  /// Input and work for grids of a depth. Throws data::ArgumentError: depth is 0 to 10.
-  void prepare(int depth, int lanes);
   /// So many numbers of each.
   void grow(int input_size, int work_size, int lanes);
   std::size_t bytes() const { return 4 * (input.size() + work.size() + row.size()); }

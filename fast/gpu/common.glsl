@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What all shaders of this folder have: their bits are those of the kernels of fast/stream/kernel on a number
+// that has no fused multiply-add. All sums are precise, so that no compiler fuses or reorders them. The host
+// defines DEPTH, LANES, LOCAL: whether edges and grids have origins of their own, and where things lie in
+// `memory`, MEMORY numbers in all (shaders.h).
+
+layout(local_size_x = LANES) in;
+shared float memory[MEMORY];
+
+layout(std140, binding = 0) uniform Batch {
+  vec4 batch_centre;  // of the caller's coordinates; w: quads: unit of polynomials
+  float control_unit; // of control points,
+  float limit_unit;   // of limit points, which the rules leave larger at each level
+  int given_stride;   // from a number of a corner block to the next
+  int sides;          // quads: sides that are evaluated of each
+  ivec4 period;       // quads: see QuadBatch of layout.h
+  int open, darts, sharp, some_polynomial;
+};
+layout(std430, binding = 1) readonly buffer Given { float given[]; };  // corner blocks, see layout.h
+layout(std430, binding = 2) writeonly buffer Points { float points[]; };  // six numbers a vertex
+
+const int N = 1 << DEPTH;
+int lane() { return int(gl_LocalInvocationID.x); }
+
+vec3 given_point(int block, int k) {
+  return vec3(given[block + k * given_stride], given[block + (k + 1) * given_stride],
+              given[block + (k + 2) * given_stride]);
+}
+vec3 load(int k) { return vec3(memory[k], memory[k + 1], memory[k + 2]); }
+void store(int k, vec3 v) { memory[k] = v.x, memory[k + 1] = v.y, memory[k + 2] = v.z; }
+
+struct Vertex { vec3 position, normal; };
+
+// The unit vector along a x b. 1 / sqrt as in rules-inl.h: a seed from the halved exponent and two steps,
+// with the same bits on every machine.
+vec3 unit_normal(vec3 a, vec3 b) {
+  precise vec3 n = a.yzx * b.zxy - a.zxy * b.yzx;
+  n.z = n.z + 8.67361738e-19;  // a zero product becomes (0, 0, 1)
+  precise float square = n.x * n.x + (n.y * n.y + n.z * n.z);
+  precise float y = intBitsToFloat(0x5f5f2000 - (floatBitsToInt(square) >> 1));
+  precise float t = square * y;
+  y = y * (4.73500586 - t * y);
+  t = (square * y) * y;
+  y = y * ((0.00038352891 * t + -0.0200802963) * t + 0.473101854);
+  n = n * y;
+  return mix(n, vec3(0.0), equal(n, vec3(0.0)));  // zeros have no sign
+}
+
+// Half the sum of two points, with few enough digits that moving there and back costs hardly any.
+vec3 middle(vec3 p, vec3 q) {
+  precise vec3 m = (0.5 * (p + q) + 3072.0) - 3072.0;
+  return m;
+}
+
+// A row on its way out: staged, so that neighbouring lanes write neighbouring numbers.
+void stage(int i, Vertex v) {
+  store(STAGED + 6 * i, v.position);
+  store(STAGED + 6 * i + 3, v.normal);
+}
+void put_staged(int row) {
+  barrier();
+  for (int k = lane(); k < 6 * (N + 1); k += LANES) points[6 * (N + 1) * row + k] = memory[STAGED + k];
+}
+void put(int i, Vertex v) {
+  int to = 6 * i;
+  points[to] = v.position.x, points[to + 1] = v.position.y, points[to + 2] = v.position.z;
+  points[to + 3] = v.normal.x, points[to + 4] = v.normal.y, points[to + 5] = v.normal.z;
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "fast/gpu/shaders.h"
+
+namespace limitcheck::fast::gpu {
+
+// The .glsl files beside this one.
+namespace text {
+extern const char kCommon[], kTriangleRules[], kTriangleGrids[], kTriangleEdges[], kQuadRules[], kQuads[],
+    kQuadSides[], kQuadPatches[];
+}
+
+BatchUniforms BatchUniforms::of(int depth, const row_stream::KernelPlacement<float>& placement, int lanes) {
+  return {{placement.centre[0], placement.centre[1], placement.centre[2], 0},
+          placement.unit,
+          row_stream::scaled(placement, depth).unit,
+          lanes};
+}
+
+BatchUniforms BatchUniforms::of(const row_stream::QuadBatch<float>& batch,
+                                const row_stream::KernelPlacement<float>& placement, int lanes, int sides) {
+  return {{placement.centre[0], placement.centre[1], placement.centre[2],
+           row_stream::quad_unit(placement.unit, 0)},
+          placement.unit,
+          row_stream::quad_unit(placement.unit, batch.depth),
+          lanes,
+          sides,
+          batch.period,
+          batch.open,
+          batch.darts,
+          batch.sharp,
+          batch.some_polynomial};
+}
+
+std::vector<EdgeEnds> edges_of_grids(int depth, int lanes) {
+  using row_stream::kA, row_stream::kB, row_stream::kC, row_stream::kD;
+  constexpr std::array<EdgeEnds, 5> of_grid{
+      {{kA, 2, kD, 0}, {kB, 0, kC, 2}, {kA, 1, kC, 1}, {kD, 1, kC, 0}, {kA, 0, kB, 1}}};
+  std::vector<EdgeEnds> all;
+  const int block = row_stream::corner_block_size(depth) * lanes;
+  for (int grid = 0; grid < lanes; ++grid)
+    for (const EdgeEnds& e : of_grid)
+      all.push_back({e.p * block + grid, e.p_first, e.q * block + grid, e.q_first});
+  return all;
+}
+
+std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes) {
+  std::vector<EdgeEnds> all;
+  for (int e = 0; e < lanes; ++e) all.push_back({e, 0, row_stream::edge_block_size(depth) * lanes + e, 0});
+  return all;
+}
+
+std::string source(Shader shader, int depth, bool local) {
+  const SharedMemory memory = SharedMemory::of(shader, depth);
+  std::string code = "#version 430\n";
+  const auto define = [&](const char* name, int value) {
+    code += std::string("#define ") + name + ' ' + std::to_string(value) + '\n';
+  };
+  define("DEPTH", depth);
+  define("LANES", kLanes);
+  define("LOCAL", local ? 1 : 0);
+  define("BORDERS", memory.borders);
+  define("STAGED", memory.staged);
+  define("MEMORY", memory.size);
+  const auto with = [&](const char* rules, const char* shader_text) {
+    return code + text::kCommon + rules + shader_text;
+  };
+  switch (shader) {
+    case Shader::kTriangleGrids:
+      return with(text::kTriangleRules, text::kTriangleGrids);
+    case Shader::kTriangleEdges:
+      return with(text::kTriangleRules, text::kTriangleEdges);
+    case Shader::kQuads:
+      return with(text::kQuadRules, text::kQuads);
+    case Shader::kQuadSides:
+      return with(text::kQuadRules, text::kQuadSides);
+    case Shader::kQuadPatches:
+      return with(text::kQuadRules, text::kQuadPatches);
+  }
+  return code;
+}
+
+}  // namespace limitcheck::fast::gpu

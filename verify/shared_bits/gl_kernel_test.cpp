@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The kernel on a GPU against the processor's own text on a number without fused multiply-add, bit by bit. OpenGL is
+// Mesa's on the processor where there is no graphics card: Debian's libgl1-mesa-dri.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "data/error.h"
+#include "data/generators/named_mesh.h"
+#include "fast/plan/pairing.h"
+#include "fast/stream/row_stream.h"
+#include "verify/gl/engine_kernels.h"
+#include "verify/shared_bits/test_support/unfused.h"
+
+namespace limitcheck::fast::row_stream {
+namespace {
+
+const Kernel& gl() {
+  return verify::engine_kernels_by_gl().triangles;
+}
+
+// Each test in an OpenGL context, or skipped where there is none.
+class GlKernel : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      gl();
+    } catch (const std::runtime_error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+};
+
+// Closed, of high and low valence, with boundaries, irregular, and a face without a partner.
+const std::vector<std::string> kMeshes{"tetrahedron", "octahedron", "torus",    "wheel:7",
+                                       "wheel:17:1",  "fan:4",      "fan:1",    "sheet",
+                                       "holes",       "random:1",   "bumpy:100"};
+
+TEST_F(GlKernel, HasTheBitsOfTheProcessorsKernelWithoutFusedMultiplyAdd) {
+  for (const bool local : {false, true})
+    for (const int depth : {0, 1, 2, 3, 5})
+      for (const std::string& name : kMeshes) {
+        if (local && depth == 0) continue;
+        if (depth == 5 && name != "octahedron" && name != "wheel:7" && name != "fan:1") continue;
+        Compared mesh(gl(), name, depth, local);
+        mesh.grids();
+        mesh.edges();
+        EXPECT_EQ(mesh.differ, 0) << name << " depth " << depth << (local ? " local" : "") << " of "
+                                  << mesh.compared;
+        EXPECT_GT(mesh.compared, 0);
+      }
+}
+
+// So the comparison above sees a fused product: what the processor ships differs.
+TEST_F(GlKernel, DiffersFromTheFusedKernel) {
+  const auto mesh = data::named_mesh("bumpy:100");
+  const Adjacency adjacency(mesh);
+  const std::vector<Grid> grids =
+      pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), 3)).grids;
+  Workspace workspace;
+  std::vector<Vertex> here(81 * grids.size()), there(here.size());
+  RowStream(mesh, adjacency).whole(grids, 3, workspace, here.data());
+  RowStream(mesh, adjacency, gl()).whole(grids, 3, workspace, there.data());
+  std::size_t differ = 0;
+  for (std::size_t v = 0; v < here.size(); ++v)
+    differ += std::memcmp(&here[v], &there[v], sizeof(Vertex)) != 0 ? 1 : 0;
+  EXPECT_GT(differ, here.size() / 10);
+  EXPECT_LT(differ, here.size());
+}
+
+TEST_F(GlKernel, RefusesDepthsForWhichSharedMemoryIsTooSmall) {
+  for (int depth = 0; depth <= gpu::kMaxDepth; ++depth)
+    for (const auto shader : {gpu::Shader::kTriangleGrids, gpu::Shader::kTriangleEdges, gpu::Shader::kQuads,
+                              gpu::Shader::kQuadSides, gpu::Shader::kQuadPatches})
+      EXPECT_LE(4 * gpu::SharedMemory::of(shader, depth).size, 32768) << depth;
+  EXPECT_GT(4 * gpu::SharedMemory::of(gpu::Shader::kTriangleGrids, gpu::kMaxDepth + 1).size, 32768);
+  std::vector<float> input(static_cast<std::size_t>(gl().lanes * input_size(9)));
+  EXPECT_THROW(gl().run(input.data(), 9, {}, nullptr, {}), data::ArgumentError);
+}
+
+}  // namespace
+}  // namespace limitcheck::fast::row_stream

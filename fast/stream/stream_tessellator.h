@@ -19,11 +19,12 @@ namespace limitcheck::fast::row_stream {
 ///
 /// The options name the scheme: Loop's for triangles, or Catmull-Clark's for any polygons, with infinitely
 /// sharp edges and vertices; the constructor throws data::ArgumentError where something is semi-sharp and, of
-/// triangles, where an edge inside the surface is sharp. The kernel for quads is the one of that name.
+/// triangles, where an edge inside the surface is sharp. The kernel for quads is the one of that name
+/// unless another is given.
 class StreamTessellator : public Engine<float> {
  public:
   explicit StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options = {},
-                             const Kernel& kernel = kernels().front());
+                             const Kernel& kernel = kernels().front(), const QuadKernel* quads = nullptr);
 
   /// Called with the number of patches done and of all patches while they are evaluated (of one part of the
   /// frame after the other if it goes to a sink): by any thread, one at a time, some calls left out.
@@ -36,7 +37,7 @@ class StreamTessellator : public Engine<float> {
  private:
   static std::unique_ptr<FrameEngine<float>> make_state(const data::ControlMesh& mesh,
                                                         const TessellatorOptions& options,
-                                                        const Kernel& kernel);
+                                                        const Kernel& kernel, const QuadKernel* quads);
 };
 
 }  // namespace limitcheck::fast::row_stream

@@ -22,7 +22,7 @@ namespace limitcheck::cli {
 namespace {
 
 bool on_a_device(const verify::AuditSubject& subject) {
-  return std::string_view(subject.subject->name) == "opensubdiv-gl";
+  return std::string_view(subject.subject->name).ends_with("-gl");
 }
 
 // "all", "name" or "name:key=value,key=value". `all` takes OpenSubdiv's approximate patches twice: at two
@@ -165,8 +165,9 @@ int audit(const Job& a) {
   std::vector<verify::AuditSubject> covering = audited;
   if (few && std::erase_if(covering, on_a_device) > 0)
     say(stderr,
-        "limitcheck: opensubdiv-gl is audited on a few meshes; on the whole plan, which takes minutes, by "
-        "limitcheck audit opensubdiv-gl\n");
+        "limitcheck: opensubdiv-gl and row-stream-gl are audited on a few meshes; on the whole plan, which "
+        "takes "
+        "minutes, by limitcheck audit opensubdiv-gl\n");
   if (few && std::erase_if(covering, [](const verify::AuditSubject& s) { return !s.options.empty(); }) > 0)
     say(stderr, "limitcheck: subjects under options are audited on meshes of up to {} faces\n",
         verify::kMostFacesUnderOptions);

@@ -59,6 +59,7 @@ struct Shared {
 };
 // Never destroyed: what a driver has at the end of a process is not there any more when objects of static storage go.
 Shared* shared = nullptr;
+std::mutex one_at_a_time;
 
 }  // namespace
 
@@ -120,7 +121,7 @@ const std::string& lack_of_gl() {
   return lack;
 }
 
-CurrentGl::CurrentGl() {
+CurrentGl::CurrentGl() : lock_(one_at_a_time) {
   if (shared == nullptr)
     shared = new Shared;
   else

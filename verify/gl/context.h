@@ -2,6 +2,7 @@
 // OpenGL without a window or display.
 #pragma once
 
+#include <mutex>
 #include <string>
 
 namespace limitcheck::verify {
@@ -29,7 +30,8 @@ class GlContext {
 /// Why OpenGL cannot even be tried, in words: a library is not there. Empty: it can.
 const std::string& lack_of_gl();
 
-/// OpenGL 4.5 for subjects that compute on a GPU, current on the caller's thread while an object of this class lives. An
+/// OpenGL 4.5 for subjects that compute on a GPU, current on the caller's thread while an object of this class lives, and other
+/// threads wait. An
 /// empty array of vertices and a framebuffer without attachments are bound. It is made when first asked for, and stays
 /// until the process ends.
 class CurrentGl {
@@ -39,6 +41,9 @@ class CurrentGl {
   ~CurrentGl();
   CurrentGl(const CurrentGl&) = delete;
   CurrentGl& operator=(const CurrentGl&) = delete;
+
+ private:
+  std::lock_guard<std::mutex> lock_;
 };
 
 /// GlContext::renderer() of that context; empty while nobody has asked for it in this process.

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -169,7 +170,7 @@ bool answers(const lc_subject& subject) try {
   (void)capabilities(subject, "");
   return true;
 } catch (const SubjectError& error) {
-  EXPECT_STREQ(subject.name, "opensubdiv-gl") << error.what();
+  EXPECT_TRUE(std::string_view(subject.name).ends_with("-gl")) << error.what();
   return false;
 }
 

@@ -10,6 +10,7 @@
 //                    frames=N walks through N frames of other depths and control points before the one that is
 //                    asked for. (Not with sticky pairs: what these deliver depends on the frames before, which
 //                    the audit's check of state finds.) `target` forces one compiled variant.
+//   row-stream-gl    the same with its kernels on a GPU (fast/gpu), by OpenGL.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -27,7 +28,10 @@
 #include "fast/plan/printed_rules.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
+#include "verify/gl/context.h"
+#include "verify/gl/engine_kernels.h"
 #include "verify/subject/adapter.h"
+#include "verify/subject/devices.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -36,18 +40,20 @@ using namespace limitcheck;
 using namespace limitcheck::verify;
 namespace rs = limitcheck::fast::row_stream;
 
+enum class Kind { kWindow, kStream, kStreamGl };
+
 enum class Form { kStrips, kIndexed, kPatches };
 
 // What the options of an engine say.
 struct Settings {
-  Settings(Options& options, bool window) {
+  Settings(Options& options, Kind kind) {
     std::vector<std::string_view> forms{"strips", "indexed", "patches"};
-    if (window) forms.pop_back();
+    if (kind == Kind::kWindow) forms.pop_back();
     form = static_cast<Form>(options.choice("output", forms));
     tessellator.provenance = true;
     constexpr std::array kRepairs{fast::Repair::kStitch, fast::Repair::kFan, fast::Repair::kNone};
     tessellator.cracks.repair = kRepairs[options.choice("repair", {"stitch", "fan", "none"})];
-    window ? read_window(options) : read_stream(options);
+    kind == Kind::kWindow ? read_window(options) : read_stream(options, kind == Kind::kStreamGl);
   }
 
   Form form;
@@ -58,6 +64,7 @@ struct Settings {
   // Of row streaming.
   int frames = 0;  // before the one that is asked for, as patches
   const rs::Kernel* kernel = nullptr;
+  const rs::QuadKernel* quads = nullptr;  // null: that of the same name
 
  private:
   void read_window(Options& options) {
@@ -67,9 +74,15 @@ struct Settings {
     tessellator.cracks.centre = kCentres[options.choice("centre", {"limit", "flat", "flat-control"})];
     if (options.choice("pairing", {"corrected", "printed"}) == 1) rules.pairing = fast::PairingRule::kPrinted;
   }
-  void read_stream(Options& options) {
+  void read_stream(Options& options, bool by_gl) {
     frames = options.integer("frames", 0, 0, 1000);
     if (frames > 0) form = Form::kPatches;
+    if (by_gl) {
+      const EngineKernels kernels = engine_kernels_by_gl();
+      kernel = &kernels.triangles, quads = &kernels.quads;
+      Devices::note("row-stream-gl", gl_device());
+      return;
+    }
     const std::string target = options.value("target", rs::kernels().front().name);
     kernel = rs::find_kernel(target.c_str());
     if (kernel != nullptr) return;
@@ -117,17 +130,21 @@ void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<
   }
 }
 
-template <bool kWindow>
+template <Kind kKind>
 class EngineSubject {
+  static constexpr bool kWindow = kKind == Kind::kWindow;
+
  public:
   static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
-    const Settings chosen(options, kWindow);
+    const Settings chosen(options, kKind);
     const bool exact = chosen.tessellator.cracks.centre == fast::FanCentre::kLimit;
     lc_capabilities result{chosen.wide ? LC_FLOAT64 : LC_FLOAT32,
                            LC_WEIGHTS_LOOP,
                            LC_BOUNDARY_SPLINE,
                            LC_POINTS_LIMIT,
-                           kWindow ? fast::kDeepest : rs::kMaxDepth,
+                           kWindow                  ? fast::kDeepest
+                           : kKind == Kind::kStream ? rs::kMaxDepth
+                                                    : fast::gpu::kMaxDepth,
                            1,
                            1,
                            exact ? 1 : 0};
@@ -137,8 +154,7 @@ class EngineSubject {
     return result;
   }
 
-  EngineSubject(const lc_mesh& mesh, Options& options)
-      : chosen_(options, kWindow), mesh_(control_mesh(mesh)) {
+  EngineSubject(const lc_mesh& mesh, Options& options) : chosen_(options, kKind), mesh_(control_mesh(mesh)) {
     chosen_.tessellator.scheme = scheme_of(mesh.scheme);
     use_threads(1);
   }
@@ -161,7 +177,7 @@ class EngineSubject {
     const fast::TessellatorOptions& options = chosen_.tessellator;
     try {
       if (!kWindow)
-        float_ = std::make_shared<rs::StreamTessellator>(mesh_, options, *chosen_.kernel);
+        float_ = std::make_shared<rs::StreamTessellator>(mesh_, options, *chosen_.kernel, chosen_.quads);
       else if (chosen_.wide)
         double_ = std::make_shared<fast::Tessellator<double>>(mesh_, options, chosen_.rules);
       else
@@ -248,7 +264,7 @@ class NullSubject {
 }  // namespace
 
 const lc_subject* lc_subject_sliding_window() {
-  static const lc_subject subject = make_subject<EngineSubject<true>>(
+  static const lc_subject subject = make_subject<EngineSubject<Kind::kWindow>>(
       "sliding-window",
       "limitcheck's sliding window: pairs, strips and fans (Mueller & Havemann 2000); both schemes",
       "precision=float|double, output=strips|indexed, repair=stitch|fan|none, "
@@ -257,12 +273,20 @@ const lc_subject* lc_subject_sliding_window() {
 }
 
 const lc_subject* lc_subject_row_stream() {
-  static const lc_subject subject = make_subject<EngineSubject<false>>(
+  static const lc_subject subject = make_subject<EngineSubject<Kind::kStream>>(
       "row-stream",
       "limitcheck's row streaming: one grid per vector lane, shared points bit-identical; both schemes",
       "output=strips|indexed|patches, frames=N (patches, after a walk of N frames), repair=stitch|fan|none, "
       "target=avx512|avx2|avx2/4|sse4|scalar|...");
   return &subject;
+}
+
+const lc_subject* lc_subject_row_stream_gl() {
+  static const lc_subject subject = make_subject<EngineSubject<Kind::kStreamGl>>(
+      "row-stream-gl",
+      "limitcheck's row streaming as compute shaders, by OpenGL: one grid per work group; both schemes",
+      "output=strips|indexed|patches, frames=N (patches, after a walk of N frames), repair=stitch|fan|none");
+  return lack_of_gl().empty() ? &subject : nullptr;
 }
 
 const lc_subject* lc_subject_null() {

@@ -15,7 +15,7 @@ std::vector<const lc_subject*> built_in_subjects() {
                                      lc_subject_cgal(),
                                      lc_subject_openmesh(),
                                      lc_subject_embree()};
-  for (const lc_subject* maybe : {lc_subject_vtk(), lc_subject_opensubdiv_gl()})
+  for (const lc_subject* maybe : {lc_subject_vtk(), lc_subject_opensubdiv_gl(), lc_subject_row_stream_gl()})
     if (maybe != nullptr) all.push_back(maybe);
   return all;
 }
@@ -26,8 +26,8 @@ std::vector<MissingSubject> missing_subjects() {
     missing.push_back(
         {"vtk",
          "this build has no vtk: VTK 9 was not there when it was configured (Debian package libvtk9-dev)"});
-  if (!lack_of_gl().empty())
-    missing.push_back({"opensubdiv-gl", "this machine has no opensubdiv-gl: " + lack_of_gl()});
+  for (const std::string name : {"opensubdiv-gl", "row-stream-gl"})
+    if (!lack_of_gl().empty()) missing.push_back({name, "this machine has no " + name + ": " + lack_of_gl()});
   return missing;
 }
 

@@ -12,10 +12,11 @@ extern "C" {
 const lc_subject* lc_subject_naive();
 const lc_subject* lc_subject_sliding_window();
 const lc_subject* lc_subject_row_stream();
+const lc_subject* lc_subject_row_stream_gl();  // nullptr: this machine has no libraries of OpenGL
 const lc_subject* lc_subject_opensubdiv_far();
 const lc_subject* lc_subject_opensubdiv_far_patches();
 const lc_subject* lc_subject_opensubdiv_bfr();
-const lc_subject* lc_subject_opensubdiv_gl();  // nullptr: this machine has no libraries of OpenGL
+const lc_subject* lc_subject_opensubdiv_gl();  // nullptr: the same
 const lc_subject* lc_subject_cgal();
 const lc_subject* lc_subject_openmesh();
 const lc_subject* lc_subject_embree();

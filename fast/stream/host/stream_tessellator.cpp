@@ -223,16 +223,17 @@ struct QuadStreamFrames final
 
 std::unique_ptr<FrameEngine<float>> StreamTessellator::make_state(const data::ControlMesh& mesh,
                                                                   const TessellatorOptions& options,
-                                                                  const Kernel& kernel) {
+                                                                  const Kernel& kernel,
+                                                                  const QuadKernel* quads) {
   if (options.scheme == data::Scheme::kLoop) return std::make_unique<LoopStreamFrames>(mesh, options, kernel);
-  const QuadKernel* quads = find_quad_kernel(kernel.name);
+  if (quads == nullptr) quads = find_quad_kernel(kernel.name);
   return std::make_unique<QuadStreamFrames>(mesh, options,
                                             quads != nullptr ? *quads : quad_kernels().front());
 }
 
 StreamTessellator::StreamTessellator(const data::ControlMesh& mesh, const TessellatorOptions& options,
-                                     const Kernel& kernel)
-    : Engine<float>(make_state(mesh, options, kernel)) {}
+                                     const Kernel& kernel, const QuadKernel* quads)
+    : Engine<float>(make_state(mesh, options, kernel, quads)) {}
 
 std::size_t StreamTessellator::worker_bytes() const {
   return dynamic_cast<const StreamHooks&>(state()).worker_bytes;

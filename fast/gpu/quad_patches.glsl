@@ -6,6 +6,12 @@
 const int kPower = 0, kCurves = 48, kCoefficients = kCurves + 4 * kCurve;
 
 vec3 patch_point(int at, int r, int k) { return given_point(at, 3 * (4 * r + k)); }
+// The same in the frame of a side.
+vec3 beside(int at, int side, int r, int k) {
+  ivec2 place = side == 0 ? ivec2(r, k) : side == 1 ? ivec2(k, 3 - r) : side == 2 ? ivec2(3 - r, 3 - k)
+                                                                                : ivec2(3 - k, r);
+  return patch_point(at, place.x, place.y);
+}
 
 // Control points of a uniform cubic B-spline, `step` numbers apart, to the coefficients of 1, t, t^2, t^3, times 6.
 void to_powers(int at, int step) {
@@ -26,24 +32,18 @@ void main() {
   int at = int(gl_WorkGroupID.x);
   precise vec3 origin = middle(patch_point(at, 1, 1), patch_point(at, 2, 2));
   precise vec3 centre = origin * control_unit + batch_centre.xyz;
-  if (lane() < 4) {
-    vec3 around[12];
-    for (int r = 0; r < 3; ++r)
-      for (int k = 0; k < 4; ++k) {
-        int side = lane();
-        around[4 * r + k] = side == 0 ? patch_point(at, r, k) : side == 1 ? patch_point(at, k, 3 - r)
-                            : side == 2 ? patch_point(at, 3 - r, 3 - k) : patch_point(at, 3 - k, r);
-      }
-    make_curve(around, kCurves + kCurve * lane());
-  } else if (lane() < 20) {  // point k of row r to kPower + 12 k + 3 r
-    int k = lane() - 4;
-    precise vec3 p = patch_point(at, k / 4, k % 4) - origin;
-    store(kPower + 12 * (k % 4) + 3 * (k / 4), p);
+  int side = lane() / 4, number = lane() % 4, curve = kCurves + kCurve * side;
+  if (lane() < 16) {
+    precise vec3 p = patch_point(at, side, number) - origin;  // row and column, too
+    store(kPower + 12 * number + 3 * side, p);
+    make_curve_point(beside(at, side, 0, number), beside(at, side, 1, number), beside(at, side, 2, number),
+                     middle(beside(at, side, 1, 1), beside(at, side, 1, 2)), curve, number);
   }
   for (int step = 12; step > 0; step -= 9) {  // rows, then columns
     barrier();
     if (lane() < 4) to_powers(kPower + (15 - step) * lane(), step);
   }
+  if (lane() < 16) make_curve_difference(curve, number);
   barrier();
   for (int j = 0; j <= N; ++j) {
     if (lane() < 4) {

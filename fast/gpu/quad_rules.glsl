@@ -22,9 +22,6 @@ int ring_entry(int corner, int core) {
   int whole = period[corner];
   return whole == 0 ? 2 * DEPTH + core : core >= whole ? core - whole : core;
 }
-vec3 ring_point(int at, int corner, int core) {
-  return given_point(block_of(at, corner), kWindow + 3 * ring_entry(corner, core));
-}
 vec3 corner_point(int at, int corner) { return given_point(block_of(at, corner), kCentre); }
 Vertex at_corner(int at, int corner) {
   int block = block_of(at, corner);
@@ -95,21 +92,19 @@ void refine_corner(int at, int corner, float origin, int c, int window, int bord
   }
 }
 
-// A side as a polynomial: coordinate c of its numbers (QuadCurve) from row r, point k of the 12 around it.
+// A side as a polynomial (QuadCurve): number k of its four points, from the three control points that lie right of the
+// side, on it and left of it; and after a barrier their differences.
 const int kCurve = 36, kAlong = 12, kAcross = 21, kOrigin = 33;
-void make_curve(vec3 p[12], int curve) {
-  precise vec3 origin = middle(p[5], p[6]);
-  precise vec3 before = vec3(0.0);
-  for (int k = 0; k < 4; ++k) {
-    precise vec3 r = p[k] - origin, m = p[4 + k] - origin, l = p[8 + k] - origin;
-    precise vec3 point = limit_filter(r, m, l), across = l - r, along = point - before;
-    store(curve + 3 * k, point);
-    store(curve + kAcross + 3 * k, across);
-    if (k > 0) store(curve + kAlong + 3 * (k - 1), along);
-    before = point;
-  }
+void make_curve_point(vec3 r, vec3 m, vec3 l, vec3 origin, int curve, int k) {
+  precise vec3 right = r - origin, here = m - origin, left = l - origin, across = left - right;
+  store(curve + 3 * k, limit_filter(right, here, left));
+  store(curve + kAcross + 3 * k, across);
   precise vec3 there = origin * control_unit + batch_centre.xyz;
-  store(curve + kOrigin, there);
+  if (k == 0) store(curve + kOrigin, there);
+}
+void make_curve_difference(int curve, int k) {
+  precise vec3 along = load(curve + 3 * k + 3) - load(curve + 3 * k);
+  if (k < 3) store(curve + kAlong + 3 * k, along);
 }
 vec3 blend(int at, float w0, float w1, float w2, float w3) {
   precise vec3 sum = (w0 * load(at) + w3 * load(at + 9)) + (w1 * load(at + 3) + w2 * load(at + 6));
@@ -126,12 +121,15 @@ Vertex curve_point(int curve, int k) {
   precise vec3 along = (b0 * load(at) + b2 * load(at + 6)) + b1 * load(at + 3);
   return Vertex(position, unit_normal(along, blend(curve + kAcross, w0, w1, w2, w3)));
 }
-// The 12 points around a side of a streamed quad.
-void make_side_curve(int at, int p, int q, int curve) {
-  make_curve(vec3[12](ring_point(at, p, 7), ring_point(at, p, 0), ring_point(at, q, 6), ring_point(at, q, 7),
-                      ring_point(at, p, 6), corner_point(at, p), corner_point(at, q), ring_point(at, q, 0),
-                      ring_point(at, p, 5), ring_point(at, p, 4), ring_point(at, q, 2), ring_point(at, q, 1)),
-             curve);
+// Of a side of a streamed quad from corner p to q, which the 12 points around it are; digit k of `cores`: the entry of the
+// ring, 8 for the corner itself.
+vec3 point_beside(int at, int p, int q, int k, int cores) {
+  int corner = k < 2 ? p : q, core = cores >> 4 * k & 15;
+  return given_point(block_of(at, corner), core == 8 ? kCentre : kWindow + 3 * ring_entry(corner, core));
+}
+void make_side_curve_point(int at, int p, int q, int curve, int k) {
+  make_curve_point(point_beside(at, p, q, k, 0x7607), point_beside(at, p, q, k, 0x0886),
+                   point_beside(at, p, q, k, 0x1245), middle(corner_point(at, p), corner_point(at, q)), curve, k);
 }
 
 // A limit from 3 x 3 points: of those on a line the one before it, itself and the one after it, and how far from each lie

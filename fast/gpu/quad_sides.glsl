@@ -46,11 +46,11 @@ void main() {
   bool sharp_side = is_sharp(at, p), polynomial = is_polynomial(at, p);
   for (int k = lane(); k < 6; k += LANES)
     refine_corner(at, k < 3 ? p : q, origin[k % 3], k % 3, k * kWidth, BORDERS + kBorder * (k / 3), 2);
-  if (polynomial && lane() == 0) make_side_curve(at, p, q, STAGED);
+  if (polynomial && lane() < 4) make_side_curve_point(at, p, q, STAGED, lane());
   barrier();
+  if (polynomial && lane() < 4) make_curve_difference(STAGED, lane());
   for (int level = 1; level <= DEPTH; ++level) {
-    for (int i = lane() - 1; i <= (1 << level) + 1; i += LANES)
-      for (int j = -1; j <= 1; ++j) make_point(level, i, j, sharp_side);
+    for (int k = lane(); k < 3 * ((1 << level) + 3); k += LANES) make_point(level, k / 3 - 1, k % 3 - 1, sharp_side);
     barrier();
   }
   for (int i = lane(); i <= N; i += LANES) {

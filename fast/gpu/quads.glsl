@@ -107,24 +107,28 @@ void main() {
   origin = middle(corner_point(at, kA), corner_point(at, kC));
   centre = origin * control_unit + centre;
 #else
-  if (DEPTH > 0 && lane() < 4 && is_polynomial(at, lane()))
-    make_side_curve(at, lane(), (lane() + 1) % 4, kCurves + kCurve * lane());
+  int side = lane() / 4, curve = kCurves + kCurve * side;
+  bool has_curve = DEPTH > 0 && side < 4 && is_polynomial(at, side);
+  if (has_curve) make_side_curve_point(at, side, (side + 1) % 4, curve, lane() % 4);
 #endif
   for (int k = lane(); k < 12; k += LANES)
     refine_corner(at, k / 3, origin[k % 3], k % 3, k * kWidth, BORDERS + kBorder * (k / 3), 4);
   barrier();
-  // Each level needs its rows -1 .. 1 before the next one's row 1; level 1 has all five from the corners.
-  for (int level = 1; level <= DEPTH; ++level) {
-    for (int j = -1; j <= min(1, DEPTH - level - 1); ++j) make_row(at, level, j);
-    barrier();
-  }
-  for (int last = 0; last <= N + 1; ++last) {
-    int level = DEPTH, j = last;
-    for (; level > 1 && (j & 1) == 0; --level) j = j / 2 + 1;
-    for (; level >= 1 && level <= DEPTH; ++level, j = 2 * j - 2) {
-      make_row(at, level, j);
+#if !LOCAL
+  if (has_curve) make_curve_difference(curve, lane() % 4);
+#endif
+  // Each level needs its rows -1 .. 1 before the next one's row 1, level 1 has all five from the corners; then the rows of
+  // the last one in turn, each after the rows of the levels before that it needs.
+  for (int last = -DEPTH; last <= N + 1; ++last) {
+    bool first = last < 0;
+    int level = first ? last + DEPTH + 1 : DEPTH, j = first ? -1 : last;
+    int rows = first ? min(3, DEPTH - level + 1) : 1;
+    for (; !first && level > 1 && (j & 1) == 0; --level) j = j / 2 + 1;
+    for (; level >= 1 && level <= DEPTH; level = first ? DEPTH + 1 : level + 1, j = 2 * j - 2) {
+      for (int row = j; row < j + rows; ++row) make_row(at, level, row);
       barrier();
     }
     if (last > 0) put_row(at, last - 1, centre);
+    if (DEPTH == 0) barrier();  // where no rows are made between two that are staged
   }
 }

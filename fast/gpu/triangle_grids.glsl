@@ -122,16 +122,15 @@ void main() {
                   BORDERS + kBorder * corner, 4);
   }
   barrier();
-  // Each level needs its rows -1, 0 and 1 before the next one's row 1, and one row for each two of the next.
-  for (int level = 0; level <= DEPTH; ++level) {
-    for (int j = -1; j <= min(1, DEPTH - level - 1); ++j) make_row(level, j);
-    barrier();
-  }
-  for (int last = 0; last <= N + 1; ++last) {
-    int level = DEPTH, j = last;
-    for (; level > 0 && (j & 1) == 0; --level) j = j / 2 + 1;
-    for (; level <= DEPTH; ++level, j = 2 * j - 2) {
-      make_row(level, j);
+  // Each level needs its rows -1, 0 and 1 before the next one's row 1, and one row for each two of the next: first these
+  // of each level, then the rows of the last one in turn, each after the rows of the levels before that it needs.
+  for (int last = -DEPTH - 1; last <= N + 1; ++last) {
+    bool first = last < 0;
+    int level = first ? last + DEPTH + 1 : DEPTH, j = first ? -1 : last;
+    int rows = first ? min(3, DEPTH - level + 1) : 1;
+    for (; !first && level > 0 && (j & 1) == 0; --level) j = j / 2 + 1;
+    for (; level <= DEPTH; level = first ? DEPTH + 1 : level + 1, j = 2 * j - 2) {
+      for (int row = j; row < j + rows; ++row) make_row(level, row);
       barrier();
     }
     if (last > 0) put_row(last - 1, centre);

@@ -30,10 +30,9 @@ class GlContext {
 /// Why OpenGL cannot even be tried, in words: a library is not there. Empty: it can.
 const std::string& lack_of_gl();
 
-/// OpenGL 4.5 for subjects that compute on a GPU, current on the caller's thread while an object of this class lives, and other
-/// threads wait. An
-/// empty array of vertices and a framebuffer without attachments are bound. It is made when first asked for, and stays
-/// until the process ends.
+/// OpenGL 4.5 for subjects that compute on a GPU, current on the caller's thread while an object of this class lives;
+/// other threads wait. An empty array of vertices and a framebuffer without attachments are bound. It is made when first
+/// asked for, and stays until the process ends.
 class CurrentGl {
  public:
   /// Throws std::runtime_error if there is none to be had.

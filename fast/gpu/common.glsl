@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What all shaders of this folder have: their bits are those of the kernels of fast/stream/kernel on a number
 // that has no fused multiply-add. All sums are precise, so that no compiler fuses or reorders them. The host
-// defines DEPTH, LANES, LOCAL: whether edges and grids have origins of their own, and where things lie in
-// `memory`, MEMORY numbers in all (shaders.h).
+// defines LANES, LOCAL: whether edges and grids have origins of their own, and where things lie in `memory`,
+// MEMORY numbers in all (shaders.h).
 
 layout(local_size_x = LANES) in;
 shared float memory[MEMORY];
@@ -15,11 +15,12 @@ layout(std140, binding = 0) uniform Batch {
   int sides;          // quads: sides that are evaluated of each
   ivec4 period;       // quads: see QuadBatch of layout.h
   int open, darts, sharp, some_polynomial;
+  int depth;
 };
 layout(std430, binding = 1) readonly buffer Given { float given[]; };  // corner blocks, see layout.h
 layout(std430, binding = 2) writeonly buffer Points { float points[]; };  // six numbers a vertex
 
-const int N = 1 << DEPTH;
+int N = 1 << depth;
 int lane() { return int(gl_LocalInvocationID.x); }
 
 vec3 given_point(int block, int k) {

@@ -3,7 +3,7 @@
 // quad_side-inl.h.
 
 const int kCentre = 5, kEdges = 8, kFaces = 11, kLimit = 14, kEnds = 20, kWindow = 22;  // QuadCornerBlock
-const int kWidth = 7 + 4 * DEPTH, kBlock = kWindow + 3 * kWidth;
+int kWidth = 7 + 4 * depth, kBlock = kWindow + 3 * kWidth;
 // Of a corner and level: c, then seven entries of the ring, e- f- e f e' f' e''.
 const int kBorder = 24;
 
@@ -15,12 +15,12 @@ bool flag(int at, int bits, int k, int number) {
 bool is_sharp(int at, int side) { return flag(at, sharp, side, 4 * kBlock); }
 bool is_polynomial(int at, int side) { return flag(at, some_polynomial, side, 4 * kBlock + 4); }
 float dart_number(int at, int corner, int k) {
-  return given[(4 * kBlock + 8 + corner * (1 + 3 * DEPTH) + k) * given_stride + at];
+  return given[(4 * kBlock + 8 + corner * (1 + 3 * depth) + k) * given_stride + at];
 }
 // Entry 0 .. 7 of a corner's ring, from e- on, as it lies in a window.
 int ring_entry(int corner, int core) {
   int whole = period[corner];
-  return whole == 0 ? 2 * DEPTH + core : core >= whole ? core - whole : core;
+  return whole == 0 ? 2 * depth + core : core >= whole ? core - whole : core;
 }
 vec3 corner_point(int at, int corner) { return given_point(block_of(at, corner), kCentre); }
 Vertex at_corner(int at, int corner) {
@@ -39,7 +39,7 @@ vec3 limit_filter(vec3 a, vec3 b, vec3 c) {
   return sum;
 }
 
-// Coordinate c of a corner from level 0 to DEPTH, in memory from `window` on; what levels 1 .. DEPTH take
+// Coordinate c of a corner from level 0 to depth, in memory from `window` on; what levels 1 .. depth take
 // from it is kept from `border` on, `corners` blocks to a level.
 void refine_corner(int at, int corner, float origin, int c, int window, int border, int corners) {
   int block = block_of(at, corner), whole = period[corner], entries = whole > 0 ? whole : kWidth;
@@ -56,7 +56,7 @@ void refine_corner(int at, int corner, float origin, int c, int window, int bord
   int start = is_open ? int(given[block + kEnds * given_stride]) : -1;
   int stop = is_open ? int(given[block + (kEnds + 1) * given_stride]) : -1;
   bool dart = (darts >> corner & 1) != 0 && dart_number(at, corner, 0) != 0.0;
-  for (int level = 0; level < DEPTH; ++level, border += kBorder * corners) {
+  for (int level = 0; level < depth; ++level, border += kBorder * corners) {
     int first = whole > 0 ? 0 : 2 * level, end = whole > 0 ? whole : kWidth - 2 * level;
     precise float here = memory[window + first];
     for (int t = window + first + 1; t + 1 < window + end; t += 2) {

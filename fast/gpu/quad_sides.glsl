@@ -3,7 +3,7 @@
 
 // Memory: the windows of the two corners; in their place the three rows, two levels in turn; what each level
 // takes from the corners; the side as a polynomial.
-const int kRow = 3 * (N + 3);
+int kRow = 3 * (N + 3);
 int row_of(int level, int j) { return ((level & 1) * 3 + j + 1) * kRow + 3; }
 
 // What the rings of the ends own; below 0: nothing.
@@ -49,12 +49,12 @@ void main() {
   if (polynomial && lane() < 4) make_side_curve_point(at, p, q, STAGED, lane());
   barrier();
   if (polynomial && lane() < 4) make_curve_difference(STAGED, lane());
-  for (int level = 1; level <= DEPTH; ++level) {
+  for (int level = 1; level <= depth; ++level) {
     for (int k = lane(); k < 3 * ((1 << level) + 3); k += LANES) make_point(level, k / 3 - 1, k % 3 - 1, sharp_side);
     barrier();
   }
   for (int i = lane(); i <= N; i += LANES) {
-    int m = row_of(DEPTH, 0) + 3 * i;
+    int m = row_of(depth, 0) + 3 * i;
     Vertex v;
     if (i == 0 || i == N) v = at_corner(at, i == 0 ? p : q);
     else if (polynomial) v = curve_point(STAGED, i);

@@ -8,7 +8,7 @@ layout(std430, binding = 3) readonly buffer SidePoints { float side_points[]; };
 
 // Memory: the windows of the corners, then in their place three rows of each level from 1 on, points -1 ..
 // 2^level + 1; what each level takes from the corners; a row on its way out; the sides as polynomials.
-const int kCurves = STAGED + 6 * (N + 1);
+int kCurves = STAGED + 6 * (N + 1);
 const int kAB = 0, kBC = 1, kCD = 2, kDA = 3, kA = 0, kB = 1, kC = 2, kD = 3;
 int row_of(int level, int j) {  // point 0 of it
   int length = (1 << level) + 3;
@@ -89,7 +89,7 @@ void put_row(int at, int j, vec3 centre) {
       v = curve_point(kCurves + kCurve * side, k);
 #endif
     } else {
-      int s = row_of(DEPTH, j - 1) + 3 * i, m = row_of(DEPTH, j) + 3 * i, n = row_of(DEPTH, j + 1) + 3 * i;
+      int s = row_of(depth, j - 1) + 3 * i, m = row_of(depth, j) + 3 * i, n = row_of(depth, j + 1) + 3 * i;
       bool column = side == kBC || side == kDA, is_sharp_line = side >= 0 && is_sharp(at, side);
       v = line_limit(column ? ivec3(s, m, n) : ivec3(m - 3, m, m + 3), column ? 3 : s - m, column ? -3 : n - m,
                      is_sharp_line, side == kAB || side == kBC, centre);
@@ -108,7 +108,7 @@ void main() {
   centre = origin * control_unit + centre;
 #else
   int side = lane() / 4, curve = kCurves + kCurve * side;
-  bool has_curve = DEPTH > 0 && side < 4 && is_polynomial(at, side);
+  bool has_curve = depth > 0 && side < 4 && is_polynomial(at, side);
   if (has_curve) make_side_curve_point(at, side, (side + 1) % 4, curve, lane() % 4);
 #endif
   for (int k = lane(); k < 12; k += LANES)
@@ -119,16 +119,16 @@ void main() {
 #endif
   // Each level needs its rows -1 .. 1 before the next one's row 1, level 1 has all five from the corners; then the rows of
   // the last one in turn, each after the rows of the levels before that it needs.
-  for (int last = -DEPTH; last <= N + 1; ++last) {
+  for (int last = -depth; last <= N + 1; ++last) {
     bool first = last < 0;
-    int level = first ? last + DEPTH + 1 : DEPTH, j = first ? -1 : last;
-    int rows = first ? min(3, DEPTH - level + 1) : 1;
+    int level = first ? last + depth + 1 : depth, j = first ? -1 : last;
+    int rows = first ? min(3, depth - level + 1) : 1;
     for (; !first && level > 1 && (j & 1) == 0; --level) j = j / 2 + 1;
-    for (; level >= 1 && level <= DEPTH; level = first ? DEPTH + 1 : level + 1, j = 2 * j - 2) {
+    for (; level >= 1 && level <= depth; level = first ? depth + 1 : level + 1, j = 2 * j - 2) {
       for (int row = j; row < j + rows; ++row) make_row(at, level, row);
       barrier();
     }
     if (last > 0) put_row(at, last - 1, centre);
-    if (DEPTH == 0) barrier();  // where no rows are made between two that are staged
+    if (depth == 0) barrier();  // where no rows are made between two that are staged
   }
 }

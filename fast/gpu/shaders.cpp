@@ -10,25 +10,25 @@ extern const char kCommon[], kTriangleRules[], kTriangleGrids[], kTriangleEdges[
 }
 
 BatchUniforms BatchUniforms::of(int depth, const row_stream::KernelPlacement<float>& placement, int lanes) {
-  return {{placement.centre[0], placement.centre[1], placement.centre[2], 0},
-          placement.unit,
-          row_stream::scaled(placement, depth).unit,
-          lanes};
+  BatchUniforms all;
+  all.centre = {placement.centre[0], placement.centre[1], placement.centre[2], 0};
+  all.control_unit = placement.unit;
+  all.limit_unit = row_stream::scaled(placement, depth).unit;
+  all.given_stride = lanes;
+  all.depth = depth;
+  return all;
 }
 
 BatchUniforms BatchUniforms::of(const row_stream::QuadBatch<float>& batch,
                                 const row_stream::KernelPlacement<float>& placement, int lanes, int sides) {
-  return {{placement.centre[0], placement.centre[1], placement.centre[2],
-           row_stream::quad_unit(placement.unit, 0)},
-          placement.unit,
-          row_stream::quad_unit(placement.unit, batch.depth),
-          lanes,
-          sides,
-          batch.period,
-          batch.open,
-          batch.darts,
-          batch.sharp,
-          batch.some_polynomial};
+  BatchUniforms all = of(batch.depth, placement, lanes);
+  all.centre[3] = row_stream::quad_unit(placement.unit, 0);
+  all.limit_unit = row_stream::quad_unit(placement.unit, batch.depth);
+  all.sides = sides;
+  all.period = batch.period;
+  all.open = batch.open, all.darts = batch.darts, all.sharp = batch.sharp;
+  all.some_polynomial = batch.some_polynomial;
+  return all;
 }
 
 std::vector<EdgeEnds> edges_of_grids(int depth, int lanes) {
@@ -49,13 +49,12 @@ std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes) {
   return all;
 }
 
-std::string source(Shader shader, int depth, bool local) {
-  const SharedMemory memory = SharedMemory::of(shader, depth);
+std::string source(Shader shader, int most, bool local) {
+  const SharedMemory memory = SharedMemory::of(shader, most);
   std::string code = "#version 430\n";
   const auto define = [&](const char* name, int value) {
     code += std::string("#define ") + name + ' ' + std::to_string(value) + '\n';
   };
-  define("DEPTH", depth);
   define("LANES", kLanes);
   define("LOCAL", local ? 1 : 0);
   define("BORDERS", memory.borders);

@@ -18,6 +18,10 @@ enum class Shader : std::uint8_t { kTriangleGrids, kTriangleEdges, kQuads, kQuad
 /// At depth 8 a grid needs 27 KB of shared memory and a quad 30, at depth 9 it would be 52: OpenGL promises
 /// 32.
 inline constexpr int kMaxDepth = 8;
+/// Each shader is there for all depths to 4, to 6 and to 8: more memory than a depth needs leaves fewer groups at work.
+constexpr int compiled_for(int depth) {
+  return depth <= 4 ? 4 : depth <= 6 ? 6 : kMaxDepth;
+}
 /// Lanes of a work group: a warp of one maker's, half a wave or a whole one of another's.
 inline constexpr int kLanes = 32;
 
@@ -58,13 +62,14 @@ struct SharedMemory {
 
 /// Uniform buffer 0, as common.glsl declares it, of grids, edges or quads that lie side by side in what is
 /// given.
-struct BatchUniforms {
-  std::array<float, 4> centre;  // [3]: of quads the unit of polynomials
-  float control_unit, limit_unit;
-  std::int32_t given_stride;
+struct alignas(16) BatchUniforms {
+  std::array<float, 4> centre{};  // [3]: of quads the unit of polynomials
+  float control_unit = 0, limit_unit = 0;
+  std::int32_t given_stride = 0;
   std::int32_t sides = 0;  // of each quad that are evaluated
   std::array<std::int32_t, 4> period{};
   std::uint32_t open = 0, darts = 0, sharp = 0, some_polynomial = 0;
+  std::int32_t depth = 0;
 
   static BatchUniforms of(int depth, const row_stream::KernelPlacement<float>& placement, int lanes);
   static BatchUniforms of(const row_stream::QuadBatch<float>& batch,
@@ -80,7 +85,8 @@ std::vector<EdgeEnds> edges_of_grids(int depth, int lanes);
 std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes);
 
 /// A shader as OpenGL and Vulkan take it.
+///   most    the largest depth that its memory is enough for
 ///   local   edges and grids have origins of their own, see KernelPlacement
-std::string source(Shader shader, int depth, bool local);
+std::string source(Shader shader, int most, bool local);
 
 }  // namespace limitcheck::fast::gpu

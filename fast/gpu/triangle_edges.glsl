@@ -6,7 +6,7 @@ layout(std430, binding = 3) readonly buffer Ends { ivec4 ends[]; };  // corner b
 
 // Memory: the windows of the ends; in their place the strip, two levels in turn; what each level takes from
 // the ends.
-const int kRow = 3 * (N + 2);
+int kRow = 3 * (N + 2);
 int line_of(int level) { return (level & 1) * 3 * kRow + 3; }
 int up_of(int level) { return line_of(level) + kRow; }
 int down_of(int level) { return up_of(level) + kRow; }
@@ -62,10 +62,10 @@ void main() {
   for (int k = lane(); k < 6; k += LANES) {
     int c = k % 3;
     ivec2 from = k < 3 ? end.xy : end.zw;
-    refine_corner(from.x, from.y, 3, origin[c], c, k * (3 + 2 * DEPTH), border_of(0, k / 3), 2);
+    refine_corner(from.x, from.y, 3, origin[c], c, k * (3 + 2 * depth), border_of(0, k / 3), 2);
   }
   barrier();
-  for (int level = 0; level <= DEPTH; ++level) {
+  for (int level = 0; level <= depth; ++level) {
     for (int i = lane(); i <= 1 << level; i += LANES) {
       make_line(level, i);
       if (i < 1 << level) make_side(level, i, true), make_side(level, i, false);
@@ -78,7 +78,7 @@ void main() {
       int block = i == 0 ? end.x : end.z;
       v = Vertex(given_point(block, kLimit), given_point(block, kLimit + 3));
     } else {
-      v = limit_rule(load(line_of(DEPTH) + 3 * i), hexagon(DEPTH, i), centre);
+      v = limit_rule(load(line_of(depth) + 3 * i), hexagon(depth, i), centre);
     }
     put(int(gl_WorkGroupID.x) * (N + 1) + i, v);
   }

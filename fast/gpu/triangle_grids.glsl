@@ -12,7 +12,7 @@ layout(std430, binding = 4) readonly buffer EdgeOf { int edge_of[]; };
 const int kA = 0, kB = 1, kC = 2, kD = 3;
 int core_width(int corner) { return 5 - corner % 2; }
 int block_of(int corner) {  // batches of given_stride grids side by side
-  const int kBlock = kWindow + 3 * (5 + 2 * DEPTH);
+  const int kBlock = kWindow + 3 * (5 + 2 * depth);
   int grid = int(gl_WorkGroupID.x);
   return (4 * (grid / given_stride) + corner) * kBlock * given_stride + grid % given_stride;
 }
@@ -90,7 +90,7 @@ Vertex at_corner(int corner) {
 void put_row(int j, vec3 centre) {
   for (int i = lane(); i <= N; i += LANES) {
     Vertex v;
-    int s = row_of(DEPTH, j - 1) + 3 * i, m = row_of(DEPTH, j) + 3 * i, n = row_of(DEPTH, j + 1) + 3 * i;
+    int s = row_of(depth, j - 1) + 3 * i, m = row_of(depth, j) + 3 * i, n = row_of(depth, j + 1) + 3 * i;
 #if LOCAL
     if (j == 0) v = on_edge(4, i);
     else if (j == N) v = on_edge(3, i);
@@ -118,18 +118,18 @@ void main() {
 #endif
   for (int k = lane(); k < 12; k += LANES) {
     int corner = k / 3, c = k % 3;
-    refine_corner(block_of(corner), 0, core_width(corner), origin[c], c, k * (5 + 2 * DEPTH),
+    refine_corner(block_of(corner), 0, core_width(corner), origin[c], c, k * (5 + 2 * depth),
                   BORDERS + kBorder * corner, 4);
   }
   barrier();
   // Each level needs its rows -1, 0 and 1 before the next one's row 1, and one row for each two of the next: first these
   // of each level, then the rows of the last one in turn, each after the rows of the levels before that it needs.
-  for (int last = -DEPTH - 1; last <= N + 1; ++last) {
+  for (int last = -depth - 1; last <= N + 1; ++last) {
     bool first = last < 0;
-    int level = first ? last + DEPTH + 1 : DEPTH, j = first ? -1 : last;
-    int rows = first ? min(3, DEPTH - level + 1) : 1;
+    int level = first ? last + depth + 1 : depth, j = first ? -1 : last;
+    int rows = first ? min(3, depth - level + 1) : 1;
     for (; !first && level > 0 && (j & 1) == 0; --level) j = j / 2 + 1;
-    for (; level <= DEPTH; level = first ? DEPTH + 1 : level + 1, j = 2 * j - 2) {
+    for (; level <= depth; level = first ? depth + 1 : level + 1, j = 2 * j - 2) {
       for (int row = j; row < j + rows; ++row) make_row(level, row);
       barrier();
     }

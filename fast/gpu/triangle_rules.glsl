@@ -23,13 +23,13 @@ Vertex limit_rule(vec3 v, Hexagon h, vec3 centre) {
   return Vertex(position, unit_normal(slant, across));
 }
 
-// Coordinate c of a corner: its window, `first` entries further on and core + 2 DEPTH wide, shrinks in memory
+// Coordinate c of a corner: its window, `first` entries further on and core + 2 depth wide, shrinks in memory
 // from `window` on; what each level takes from it is kept from `border` on, `corners` blocks to a level.
 void refine_corner(int block, int first, int core, float origin, int c, int window, int border, int corners) {
   precise float k0 = given[block], k1 = given[block + given_stride];
   precise float v = given[block + (kCentre + c) * given_stride];
   precise float d = given[block + (kDifference + c) * given_stride];
-  int width = core + 2 * DEPTH;
+  int width = core + 2 * depth;
 #if LOCAL
   v = v - origin;
 #endif
@@ -42,9 +42,9 @@ void refine_corner(int block, int first, int core, float origin, int c, int wind
   }
   for (int level = 0;; ++level, border += kBorder * corners) {
     memory[border + c] = v;
-    memory[border + 3 + c] = memory[window + DEPTH - level];
-    memory[border + 6 + c] = memory[window + DEPTH - level + core - 1];
-    if (level == DEPTH) return;
+    memory[border + 3 + c] = memory[window + depth - level];
+    memory[border + 6 + c] = memory[window + depth - level + core - 1];
+    if (level == depth) return;
     width -= 2;
     precise float before = memory[window], here = memory[window + 1];
     for (int t = 0; t < width; ++t) {

@@ -61,10 +61,11 @@ class Pass {
   }
   /// So many work groups, each of which makes so many rows of points. What the last ones made they find at kBorders.
   void run(Shader shader, std::size_t groups, std::size_t rows) {
-    std::unique_ptr<GlProgram>& program = kept().programs[{shader, depth_, local_}];
+    const int most = fast::gpu::compiled_for(depth_);
+    std::unique_ptr<GlProgram>& program = kept().programs[{shader, most, local_}];
     if (program == nullptr)
       program = std::make_unique<GlProgram>(
-          std::vector<GlProgram::Stage>{{GL_COMPUTE_SHADER, fast::gpu::source(shader, depth_, local_)}},
+          std::vector<GlProgram::Stage>{{GL_COMPUTE_SHADER, fast::gpu::source(shader, most, local_)}},
           "row streaming");
     program->use();
     if (numbers_ > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBorders, kept().buffers[3]);

@@ -52,6 +52,7 @@ const std::vector<Command>& commands() {
         {"--depth", {"bumpy:20 -o a.obj", "1"}},
         {"--strategy", {"bumpy:20 -o a.obj", "random"}},
         {"--engine", {"bumpy:20 -o a.obj", "sliding-window"}},
+        {"--gpu", {"bumpy:20 -o a.obj", ""}},
         {"--camera", {"bumpy:20 --strategy combined -o a.obj", "9,0,0"}},
         {"--pixels", {"bumpy:20 --strategy combined -o a.obj", "9"}},
         {"--angle", {"bumpy:20 --strategy curvature -o a.obj", "90"}},

@@ -14,6 +14,8 @@
 #include "verify/cli/commands.h"
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/screen.h"
+#include "verify/gl/context.h"
+#include "verify/gl/engine_kernels.h"
 #include "verify/host/host.h"
 #include "verify/mesh_output/mesh_output.h"
 
@@ -29,7 +31,7 @@ struct TessellateArguments {
   fast::DepthOptions depths;
   fast::TessellatorOptions engine;
   fast::Camera view;
-  bool sliding_window = false, json = false, view_given = false, cull = false;
+  bool sliding_window = false, json = false, view_given = false, cull = false, gpu = false;
 };
 
 const Words<std::optional<fast::Strategy>> kStrategies{{"uniform", fast::Strategy::kUniform},
@@ -80,6 +82,7 @@ nlohmann::ordered_json report(const TessellateArguments& a, const MeshScheme& ch
           {"faces_cut", chosen.cut},
           {"output", a.output.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(a.output)},
           {"engine", word_of(kEngines, a.sliding_window)},
+          {"device", a.gpu ? nlohmann::ordered_json(verify::gl_device()) : nlohmann::ordered_json(nullptr)},
           {"strategy", std::string(fast::name(options.strategy))},
           {"seed", options.seed},
           {"faces", s.faces},
@@ -133,6 +136,13 @@ class Lap {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// Throws data::ArgumentError where there is no OpenGL.
+std::optional<verify::EngineKernels> kernels(const TessellateArguments& a) try {
+  return a.gpu ? std::optional(verify::engine_kernels_by_gl()) : std::nullopt;
+} catch (const std::runtime_error& error) {
+  throw data::ArgumentError(fmt::format("--gpu: {}", error.what()));
+}
+
 Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::DepthOptions& options,
             const fast::Camera& view, Progress& progress, Lap& lap, Timings& timings) {
   const data::ControlMesh& mesh = opened.mesh;
@@ -149,7 +159,10 @@ Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::
     return std::move(out);
   };
   if (a.sliding_window) return frame(fast::Tessellator<float>(mesh, engine));
-  fast::row_stream::StreamTessellator stream(mesh, engine);
+  namespace rs = fast::row_stream;
+  const std::optional<verify::EngineKernels> gpu = kernels(a);
+  rs::StreamTessellator stream(mesh, engine, gpu ? gpu->triangles : rs::kernels().front(),
+                               gpu ? &gpu->quads : nullptr);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
   stream.on_progress(
       [&](std::size_t done, std::size_t total) { progress.show(total + done, 3 * total, text); });
@@ -222,6 +235,12 @@ void add_tessellate(CLI::App& app, int& exit_code) {
             "given");
   add_words(*command, "--engine", a->sliding_window, kEngines,
             "row-stream, or sliding-window: the paper's engine, one pair or quad after the other");
+  command
+      ->add_flag(
+          "--gpu", a->gpu,
+          "Compute the points on a graphics card, by OpenGL, to depth 8; edges between unequal depths, too. "
+          "Faces at sharp edges inside a surface of triangles, or at semi-sharp ones, stay on the processor")
+      ->excludes("--engine");
   auto* eye =
       command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
   auto* pixels = add_number(*command, "--pixels", a->depths.target_pixels, 1e-6, 1e6,

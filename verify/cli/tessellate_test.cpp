@@ -29,6 +29,17 @@ class TessellateCommand : public CommandTest {
   nlohmann::json json_of(const std::string& arguments, int code = 0) const {
     return CommandTest::json_of("tessellate " + arguments, code);
   }
+  // Of the vertices of two files with the same triangles.
+  double largest_distance(const char* one, const char* other) const {
+    const data::ControlMesh a = data::read_mesh(folder_ / one), b = data::read_mesh(folder_ / other);
+    EXPECT_EQ(triangles_of(a), triangles_of(b));
+    EXPECT_EQ(a.positions.size(), b.positions.size());
+    double worst = 0;
+    for (std::size_t v = 0; v < std::min(a.positions.size(), b.positions.size()); ++v)
+      for (std::size_t c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(a.positions[v][c] - b.positions[v][c]));
+    return worst;
+  }
 };
 
 TEST_F(TessellateCommand, WritesAClosedManifoldWithEveryTriangleItReports) {
@@ -115,19 +126,29 @@ TEST_F(TessellateCommand, StreamsRowsByDefaultAndKeepsThePapersFormOnRequest) {
     for (const char* key :
          {"pairs", "singletons", "fans", "stitched", "triangles", "vertices", "limit_points"})
       EXPECT_EQ(rows[key], window[key]) << key;
-    const data::ControlMesh a = data::read_mesh(folder_ / "rows.ply"),
-                            b = data::read_mesh(folder_ / "window.ply");
-    EXPECT_EQ(triangles_of(a), triangles_of(b));
-    ASSERT_EQ(a.positions.size(), b.positions.size());
-    double worst = 0;
-    for (std::size_t v = 0; v < a.positions.size(); ++v) {
-      for (std::size_t c = 0; c < 3; ++c)
-        worst = std::max(worst, std::abs(a.positions[v][c] - b.positions[v][c]));
-    }
+    const double worst = largest_distance("rows.ply", "window.ply");
     EXPECT_LE(worst, 5e-7) << what;
     EXPECT_GT(worst, 0) << "two engines";
   }
   EXPECT_EQ(run("octahedron --depth 10 --json").code, 0);
+}
+
+// Which fuses no product with a sum, unlike the processor's kernels.
+TEST_F(TessellateCommand, ComputesOnAGraphicsCardOrSaysWhyNot) {
+  for (const char* what : {"bumpy:200 --strategy random --depth 4", "dual:bumpy:60 --depth 3"}) {
+    const Outcome there = run(std::string(what) + " --gpu --json -o there.ply");
+    if (there.code != 0) {
+      EXPECT_EQ(there.code, 2);
+      EXPECT_TRUE(says(there.err, "--gpu: no OpenGL"));
+      GTEST_SKIP() << there.err;
+    }
+    EXPECT_TRUE(says(nlohmann::json::parse(there.out)["device"].get<std::string>(), "OpenGL")) << there.out;
+    EXPECT_TRUE(json_of(std::string(what) + " --json -o here.ply")["device"].is_null());
+    const double worst = largest_distance("here.ply", "there.ply");
+    EXPECT_LE(worst, 5e-7) << what;
+    EXPECT_GT(worst, 0) << what;
+  }
+  EXPECT_EQ(run("octahedron --depth 9 --gpu").code, 2);
 }
 
 TEST_F(TessellateCommand, ObeysCullingCentreRepairAngleAndPixels) {

@@ -4,7 +4,7 @@
 # apt-get shows what it does, elsewhere only if it fails.
 #   verify/install.sh          what building and testing need
 #   verify/install.sh --docs   also what the API reference needs
-#   verify/install.sh --dev    also clang, the formatters and linters, the fuzzer's runtime
+#   verify/install.sh --dev    also clang, the formatters and linters, the fuzzer's runtime, Vulkan for tests
 set -euo pipefail
 
 packages=(
@@ -25,6 +25,7 @@ packages=(
 )
 if [[ ${1:-} == --dev ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy cppcheck codespell gcovr ccache)
+  packages+=(mesa-vulkan-drivers libvulkan-dev glslang-tools)  # the engine's shaders as other drivers compile them
 elif [[ ${1:-} == --docs ]]; then
   packages+=(doxygen)
 fi

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// What AMD's compiler makes of the shaders of fast/gpu: Mesa's driver compiles for a card that is not there ("null
+// hardware") and shows the assembly. No machine of this kind is needed, and none runs anything here.
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "fast/gpu/shaders.h"
+#include "verify/shared_bits/test_support/vulkan.h"
+
+namespace limitcheck::verify {
+namespace {
+
+using fast::gpu::Shader;
+
+constexpr std::array kShaders{Shader::kTriangleGrids, Shader::kTriangleEdges, Shader::kQuads,
+                              Shader::kQuadSides, Shader::kQuadPatches};
+constexpr std::array kNames{"grids", "edges", "quads", "sides", "patches"};
+
+const test::VulkanDevice& navi21() {
+  setenv("RADV_FORCE_FAMILY", "navi21", 1);
+  static const test::VulkanDevice device(LIMITCHECK_RADV);
+  return device;
+}
+
+// Fused multiply-adds, each as it stands in the assembly; and those among them whose product is exact.
+struct Fused {
+  std::multiset<std::string> all, exact;
+};
+Fused fused(const std::string& assembly) {
+  // v_fma_f32 v1, v2, s3, v4; v_fmac_f32 v1, v2, v3; v_fmamk_f32 v1, v2, 0x41000000, v3 (times the constant);
+  // v_fmaak_f32 v1, v2, v3, 0x41000000 (plus it). Small powers of two stand in an instruction as such.
+  static const std::regex instruction(
+      "v_(pk_)?(fma|mad|mac|fmac|fmamk|fmaak|madmk|madak|fma_mix)[a-z0-9_]*_f(32|16)[^;\n]*");
+  static const std::regex by_constant("v_fmamk_f32 [^,]*, [^,]*, 0x([0-9a-f]+),.*");
+  static const std::regex by_power(
+      "v_fmac?_f32(_e32|_e64)? [^,]*, (-?(0\\.5|1\\.0|2\\.0|4\\.0),.*|[^,]*, -?(0\\.5|1\\.0|2\\.0|4\\.0)(,| "
+      ").*)");
+  Fused result;
+  for (std::sregex_iterator m(assembly.begin(), assembly.end(), instruction), end; m != end; ++m) {
+    const std::string line = m->str();
+    result.all.insert(line);
+    std::smatch constant;
+    const bool power =
+        std::regex_match(line, constant, by_constant)
+            ? (static_cast<std::uint32_t>(std::stoul(constant[1], nullptr, 16)) & 0x7fffffu) == 0
+            : std::regex_match(line, by_power);
+    if (power) result.exact.insert(line);
+  }
+  return result;
+}
+
+std::string without_precise(std::string text) {
+  for (std::size_t at; (at = text.find("precise ")) != std::string::npos;) text.erase(at, 8);
+  return text;
+}
+
+TEST(ShadersForNavi21, FuseNoProductThatRounds) {
+  for (const auto shader : kShaders)
+    for (const bool local : {false, true})
+      for (const int depth : {3, 5}) {
+        const std::string text = fast::gpu::source(shader, depth, local);
+        const Fused with = fused(navi21().compile(test::spirv(text)).assembly);
+        EXPECT_EQ(with.all, with.exact) << static_cast<int>(shader) << " depth " << depth << local;
+        // So this compiler fuses where it may, and the test sees it.
+        EXPECT_GT(fused(navi21().compile(test::spirv(without_precise(text))).assembly).all.size(), 20)
+            << depth << local;
+      }
+}
+
+TEST(ShadersForNavi21, NeedAtMostFortyRegistersAndLittleSharedMemory) {
+  for (const auto shader : kShaders)
+    for (const bool local : {false, true}) {
+      const auto figures = navi21().compile(test::spirv(fast::gpu::source(shader, 5, local))).figures;
+      const bool quads = shader != Shader::kTriangleGrids && shader != Shader::kTriangleEdges;
+      const std::string name =
+          fmt::format("{}_{}", kNames.at(static_cast<std::size_t>(shader)), local ? "local" : "common");
+      if (!quads) {
+        EXPECT_LE(figures.at("VGPRs"), 40) << name;
+      }
+      EXPECT_EQ(figures.at("Spilled VGPRs") + figures.at("Spilled SGPRs") + figures.at("Scratch size"), 0)
+          << name;
+      // What the host says, in units of 512 bytes.
+      const auto shared = static_cast<std::uint64_t>(4 * fast::gpu::SharedMemory::of(shader, 5).size);
+      EXPECT_EQ(figures.at("LDS size"), (shared + 511) / 512 * 512) << name;
+      EXPECT_LE(figures.at("LDS size"), 6700) << name;
+      for (const char* figure : {"VGPRs", "LDS size", "Instructions"})
+        RecordProperty(fmt::format("{}_{}", figure, name), fmt::format("{}", figures.at(figure)));
+    }
+}
+
+}  // namespace
+}  // namespace limitcheck::verify

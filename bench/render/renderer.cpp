@@ -48,20 +48,6 @@ void main() {
 
 constexpr Colour kSurface{.72f, .76f, .82f}, kEdge{.08f, .1f, .14f};
 
-unsigned compile(GLenum kind, const char* text) {
-  const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  GLint done = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
-  if (done == GL_FALSE) {
-    char log[512] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    throw std::runtime_error(std::string("a shader does not compile: ") + log);
-  }
-  return shader;
-}
-
 Eigen::Vector3d eigen(const fast::Point3& p) {
   return {p.x, p.y, p.z};
 }
@@ -88,16 +74,12 @@ Eigen::Matrix4f view_projection(const fast::Camera& camera, double aspect, doubl
 
 }  // namespace
 
-Renderer::Renderer(int width, int height, int samples) : width_(width), height_(height), samples_(samples) {
-  program_ = glCreateProgram();
-  for (const auto& [kind, text] :
-       {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {
-    const GLuint shader = compile(static_cast<GLenum>(kind), text);
-    glAttachShader(program_, shader);
-    glDeleteShader(shader);
-  }
-  glLinkProgram(program_);
-  glUseProgram(program_);
+Renderer::Renderer(int width, int height, int samples)
+    : width_(width),
+      height_(height),
+      samples_(samples),
+      program_({{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}, "the renderer") {
+  program_.use();
   glGenVertexArrays(1, &array_);
   glBindVertexArray(array_);
   glGenBuffers(1, &buffer_);
@@ -130,11 +112,11 @@ void Renderer::begin(const fast::Camera& camera, double depth_range) {
   glClearColor(1, 1, 1, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   const Eigen::Matrix4f matrix = view_projection(camera, static_cast<double>(width_) / height_, depth_range);
-  glUniformMatrix4fv(glGetUniformLocation(program_, "projection"), 1, GL_FALSE, matrix.data());
+  glUniformMatrix4fv(program_.place("projection"), 1, GL_FALSE, matrix.data());
   const Eigen::Vector3d back = (eigen(camera.eye) - eigen(camera.target)).normalized();
   const Eigen::Vector3d right = eigen(camera.up).cross(back).normalized();
   const Eigen::Vector3f light = (back + .45 * back.cross(right) - .35 * right).normalized().cast<float>();
-  glUniform3fv(glGetUniformLocation(program_, "light"), 1, light.data());
+  glUniform3fv(program_.place("light"), 1, light.data());
 }
 
 void Renderer::draw(const fast::DrawList<float>& frame, const Appearance& appearance) {
@@ -150,7 +132,7 @@ void Renderer::draw(const fast::DrawList<float>& frame, const Appearance& appear
     glDisable(GL_CULL_FACE);
   else
     glEnable(GL_CULL_FACE);
-  glUniform1i(glGetUniformLocation(program_, "both"), appearance.backfaces ? 1 : 0);
+  program_.set("both", appearance.backfaces ? 1 : 0);
 
   const auto draws = [&](bool coloured) {
     for (const fast::Draw& draw : frame.draws) {
@@ -165,19 +147,19 @@ void Renderer::draw(const fast::DrawList<float>& frame, const Appearance& appear
     }
   };
   glVertexAttrib3fv(2, kSurface.data());
-  glUniform1i(glGetUniformLocation(program_, "lit"), 1);
-  glUniform1i(glGetUniformLocation(program_, "faceted"), appearance.flat ? 1 : 0);
+  program_.set("lit", 1);
+  program_.set("faceted", appearance.flat ? 1 : 0);
   if (appearance.wireframe) {  // push the surface back, so that its edges lie before it
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1, 1);
   }
   draws(true);
-  glUniform1i(glGetUniformLocation(program_, "faceted"), 0);
+  program_.set("faceted", 0);
   if (!appearance.wireframe) return;
   glDisable(GL_POLYGON_OFFSET_FILL);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-  glUniform1i(glGetUniformLocation(program_, "lit"), 0);
-  glUniform1i(glGetUniformLocation(program_, "both"), 0);
+  program_.set("lit", 0);
+  program_.set("both", 0);
   glVertexAttrib3fv(2, kEdge.data());
   draws(false);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -194,8 +176,8 @@ void Renderer::draw(std::span<const Segment> segments, const Colour& colour) {
   glEnableVertexAttribArray(0);
   glDisableVertexAttribArray(1);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glUniform1i(glGetUniformLocation(program_, "lit"), 0);
-  glUniform1i(glGetUniformLocation(program_, "both"), 0);
+  program_.set("lit", 0);
+  program_.set("both", 0);
   glVertexAttrib3fv(2, colour.data());
   glLineWidth(2.5f);  // a core context may refuse it: then they stay thin
   glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(2 * segments.size()));

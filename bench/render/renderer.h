@@ -13,6 +13,7 @@
 
 #include "fast/frame/sink.h"
 #include "fast/plan/depth.h"
+#include "verify/gl/compute.h"
 #include "verify/gl/context.h"
 
 namespace limitcheck::bench {
@@ -66,7 +67,8 @@ class Renderer {
  private:
   verify::GlContext context_;
   int width_, height_, samples_;
-  unsigned program_ = 0, array_ = 0, buffer_ = 0;
+  verify::GlProgram program_;
+  unsigned array_ = 0, buffer_ = 0;
   unsigned frame_ = 0, resolved_ = 0;
   std::array<unsigned, 4> attachments_{};
 };

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <utility>
 
 #include "data/splitmix64.h"
 #include "fast/plan/quad_depth.h"

@@ -93,7 +93,7 @@ void GlProgram::use() const {
 }
 
 void GlProgram::set(const char* uniform, std::int32_t value) const {
-  glUniform1i(glGetUniformLocation(program_, uniform), value);
+  glUniform1i(place(uniform), value);
 }
 
 void GlProgram::compute(std::int64_t items) const {

@@ -36,6 +36,7 @@ class GlProgram {
   void use() const;
   /// Of the program in use; a name that it has not is passed over.
   void set(const char* uniform, std::int32_t value) const;
+  GLint place(const char* uniform) const { return glGetUniformLocation(program_, uniform); }
   /// Runs it on so many items in groups of the size that the shader has: item k is
   /// gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x. What it writes is there for all
   /// that comes after it.

@@ -224,13 +224,6 @@ void add_prepass(Costs& costs, const Shape& shape) {
            fast::positions_of<float>(shape.second));
 }
 
-std::vector<fast::Vec3<float>> positions_of(const fast::QuadMesh& quads) {
-  std::vector<fast::Vec3<float>> positions;
-  for (const auto& p : quads.positions)
-    positions.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-  return positions;
-}
-
 /// The same of quads.
 void add_quad_prepass(Costs& costs, const Shape& shape) {
   std::optional<fast::QuadMesh> quads;
@@ -238,13 +231,13 @@ void add_quad_prepass(Costs& costs, const Shape& shape) {
   std::optional<rs::QuadRowStream> stream;
   add_made(costs, "prepass/row-stream", shape, stream, *quads);
   std::optional<fast::PreparedQuads<float>> prepared;
-  add_made(costs, "prepass/sliding-window", shape, prepared, *quads, positions_of(*quads));
+  add_made(costs, "prepass/sliding-window", shape, prepared, *quads, fast::positions_of<float>(*quads));
 }
 
 /// What the window computes and holds for quad 0, as the paper counts it.
 void add_quad_window(Costs& costs, const Shape& shape) {
   const fast::QuadMesh quads(shape.second);
-  const fast::PreparedQuads<float> prepared(quads, positions_of(quads));
+  const fast::PreparedQuads<float> prepared(quads, fast::positions_of<float>(quads));
   for (const int depth : {0, 1, 3, 5}) {
     fast::QuadWindow<float, fast::LimitSurface<float>, fast::Counting> window(depth,
                                                                               quads.adjacency.max_valence());

@@ -99,16 +99,16 @@ std::vector<std::int32_t> depths(const data::ControlMesh& mesh, bool deeper) {
 
 /// Two frames by turns, of depths 0 to 4, by the engine of that kernel or of the best one; in one of them every fortieth
 /// face is deeper by one.
-template <class Output>
+///   with   what the output is made with
+template <class Output, class... With>
 void add_frames(std::vector<Tracked>& list, const Subject& subject, const std::string& form,
-                const std::function<std::shared_ptr<Output>()>& output, const rs::Kernel* kernel = nullptr,
-                int threads = 1) {
+                const rs::Kernel* kernel = nullptr, int threads = 1, const With&... with) {
   const bool counted = threads == 1 && (kernel == nullptr || can_be_counted(kernel->name));
   const std::string name = subject.name + "frame/row-stream/" + form;
   list.push_back({counted ? name : "", name, [=](Way way) {
                     const auto mesh = subject.mesh(way);
                     const auto by = engine(mesh, subject.scheme, kernel ? *kernel : best(way), threads);
-                    const auto out = output();
+                    const auto out = std::make_shared<Output>(with...);
                     const auto both = [=, one = depths(mesh, true), other = depths(mesh, false)] {
                       by->frame(one, *out);
                       by->frame(other, *out);
@@ -139,19 +139,17 @@ void add_deforming(std::vector<Tracked>& list, const Subject& subject, fast::Str
 
 /// Every form of output, deforming points, two threads.
 void add_all_frames(std::vector<Tracked>& list, const Subject& subject) {
-  add_frames<fast::DrawList<float>>(list, subject, "random-depths", std::make_shared<fast::DrawList<float>>);
-  add_frames<fast::IndexedMesh<float>>(list, subject, "indexed", std::make_shared<fast::IndexedMesh<float>>);
+  add_frames<fast::DrawList<float>>(list, subject, "random-depths");
+  add_frames<fast::IndexedMesh<float>>(list, subject, "indexed");
   for (const auto& [form, options] :
        {std::pair{"patches", fast::PatchOptions{}},
         std::pair{"patches-kept", fast::PatchOptions{.incremental = true}},
         std::pair{"patches-compact", fast::PatchOptions{.compact = true}},
         std::pair{"patches-sticky", fast::PatchOptions{.incremental = true, .sticky = true}}})
-    add_frames<fast::PatchMesh<float>>(
-        list, subject, form, [with = options] { return std::make_shared<fast::PatchMesh<float>>(with); });
+    add_frames<fast::PatchMesh<float>>(list, subject, form, nullptr, 1, options);
   for (const auto strategy : {fast::Strategy::kProjectSphere, fast::Strategy::kCombined})
     add_deforming(list, subject, strategy);
-  add_frames<fast::DrawList<float>>(list, subject, "two-threads", std::make_shared<fast::DrawList<float>>,
-                                    nullptr, 2);
+  add_frames<fast::DrawList<float>>(list, subject, "two-threads", nullptr, 2);
 }
 
 /// Frames at given depths, again and again.
@@ -230,12 +228,10 @@ std::vector<Tracked> tracked_cases() {
 
   for (const Subject* subject : {&triangles, &quads}) add_all_frames(list, *subject);
   for (const Subject* subject : {&polygons, &semi_sharp})
-    add_frames<fast::PatchMesh<float>>(list, *subject, "patches",
-                                       [] { return std::make_shared<fast::PatchMesh<float>>(); });
+    add_frames<fast::PatchMesh<float>>(list, *subject, "patches");
   for (const rs::Kernel& kernel : rs::kernels())
     for (const Subject* subject : {&triangles, &quads, &regular})
-      add_frames<fast::DrawList<float>>(list, *subject, std::string(kernel.name) + "/random-depths",
-                                        std::make_shared<fast::DrawList<float>>, &kernel);
+      add_frames<fast::DrawList<float>>(list, *subject, std::string(kernel.name) + "/random-depths", &kernel);
 
   const Subject small{"", kLoop, by_faces("bumpy", 200, 200)},
       small_quads{"quads/", kQuads, [](Way) { return data::pawn(8); }};

@@ -74,13 +74,9 @@ ControlMesh crease_ring(std::uint64_t sharpness, std::uint64_t tenths) {
   require(tenths < 10, "a sharpness has 9 tenths at most");
   const float s = std::min(as_sharpness(sharpness) + static_cast<float>(tenths) / 10, kInfiniteSharpness);
   ControlMesh mesh = quad_torus(12, 6);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {  // edges between vertices 0, 6, 12, ..
-    const auto face = mesh.faces[f];
-    const auto ring = [](std::int32_t v) { return v % 6; };
-    for (std::size_t k = 0; k < 4; ++k)
-      if (ring(face[k]) == 0 && ring(face[(k + 1) % 4]) == 0 && face[k] < face[(k + 1) % 4])
-        mesh.sharpness.edges.push_back({face[k], face[(k + 1) % 4], s});
-  }
+  for_each_side(mesh.faces, [&](std::int32_t a, std::int32_t b) {  // edges between vertices 0, 6, 12, ..
+    if (a % 6 == 0 && b % 6 == 0 && a < b) mesh.sharpness.edges.push_back({a, b, s});
+  });
   return mesh;
 }
 

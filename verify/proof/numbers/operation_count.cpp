@@ -103,8 +103,7 @@ template <bool kCarry>
 KernelCost count_window(const data::ControlMesh& mesh, int depth) {
   KernelCost cost;
   const fast::Adjacency adjacency(mesh);
-  std::vector<fast::Vec3<Number>> points;
-  for (const auto& p : mesh.positions) points.push_back({Number(p[0]), Number(p[1]), Number(p[2])});
+  const auto points = fast::positions_of<Number>(mesh);
   std::optional<fast::PreparedMesh<Number>> prepared;
   cost.prepass = count([&] { prepared.emplace(adjacency, points); });
   fast::SlidingWindow<Number, fast::LimitSurface<Number>, fast::Counting, kCarry> window(

@@ -332,7 +332,7 @@ std::span<const Fault> faults() {
     }
     all[0].on = Change::On::kBoth;
     for (Fault& fault : all)
-      if (fault.name == "unmoved_vertices") fault.of = "cgal";
+      if (fault.name == "unmoved_vertices") fault.of = "model", fault.options = "points=refined";
     return all;
   }();
   return list;

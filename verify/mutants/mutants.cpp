@@ -83,7 +83,8 @@ const std::vector<Mutant>& mutants() {
                          }});
         }
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
-                   faulty_options("wrong_edge_mask", "cgal"), "refined-positions", "", false});
+                   faulty_options("wrong_edge_mask", kBase, "points=refined"), "refined-positions", "",
+                   false});
     all.push_back({"no_limit_and_swapped_points", "refined points for limit points, two of them exchanged",
                    "faulty", faulty_options("swapped_points", kBase, "mutation=no_limit"), "recognised", "",
                    false});

@@ -6,7 +6,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/subdivision_method_3.h>
 
-#include "verify/peers/refinement_tracker.h"
+#include "verify/peers/refining_subject.h"
 #include "verify/subject/registry.h"
 
 namespace {

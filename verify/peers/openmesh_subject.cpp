@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "verify/peers/refinement_tracker.h"
+#include "verify/peers/refining_subject.h"
 #include "verify/subject/registry.h"
 
 namespace {

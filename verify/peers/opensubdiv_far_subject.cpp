@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "verify/peers/opensubdiv_mesh.h"
-#include "verify/peers/refinement_tracker.h"
+#include "verify/subject/face_domain.h"
 #include "verify/subject/registry.h"
 
 namespace {
@@ -97,19 +97,19 @@ class FarSubject {
       for (std::size_t c = 0; c < 3; ++c) output.normals[3 * v + c] = n[c] / length;
     }
 
-    RefinementTracker tracker(mesh_);
-    for (int level = 1; level <= depth; ++level)
-      quads ? track<4>(tracker, refiner_->GetLevel(level)) : track<3>(tracker, refiner_->GetLevel(level));
-    for (std::size_t v = 0; const Place& p : tracker.places(RefinementTracker::Namer::kLast)) {
-      output.provenance[v] = {p.face, p.i, p.j, p.denominator};
-      if (quads) output.corner[v] = p.corner;
-      ++v;
-    }
-    std::ranges::copy(tracker.triangle_face(), output.triangle_face);
+    // A vertex is named by the last face that has it.
+    const FacePlaces places = places_of_faces(depth);
     std::vector<Fan> fans;
     for (int f = 0; f < last.GetNumFaces(); ++f) {
       const auto corners = last.GetFaceVertices(f);
+      const std::vector<Place>& at = places[static_cast<std::size_t>(f)];
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const int v = corners[static_cast<int>(k)];
+        output.provenance[v] = {at[k].face, at[k].i, at[k].j, at[k].denominator};
+        if (quads) output.corner[v] = at[k].corner;
+      }
       for (int k = 1; k + 1 < corners.size(); ++k) {
+        output.triangle_face[fans.size()] = at[0].face;
         std::uint32_t* const triangle = output.triangles + 3 * fans.size();
         for (std::size_t c = 0; const int corner : {corners[0], corners[k], corners[k + 1]})
           triangle[c++] = static_cast<std::uint32_t>(corner);
@@ -180,15 +180,55 @@ class FarSubject {
     }
   }
 
-  // One step. The library gives vertices the numbers of their parents and counts on from there.
-  template <std::size_t N>
-  static void track(RefinementTracker& tracker, const Far::TopologyLevel& level) {
-    std::vector<std::array<std::uint32_t, N>> faces(static_cast<std::size_t>(level.GetNumFaces()));
-    for (int f = 0; f < level.GetNumFaces(); ++f)
-      for (std::size_t k = 0; k < N; ++k)
-        faces[static_cast<std::size_t>(f)][k] =
-            static_cast<std::uint32_t>(level.GetFaceVertices(f)[static_cast<int>(k)]);
-    tracker.step(level.GetNumVertices(), faces);
+  // Of each face of a level where its corners lie on the control face.
+  using FacePlaces = std::vector<std::vector<Place>>;
+  FacePlaces places_of_faces(int depth) const {
+    const bool quads = mesh_.scheme == LC_SCHEME_CATMULL_CLARK;
+    const std::vector<Place> triangle{{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}};
+    const std::vector<Place> quad{{0, 0, 0, 1}, {0, 1, 0, 1}, {0, 1, 1, 1}, {0, 0, 1, 1}};
+    const auto on_face = [](std::vector<Place> corners, std::int32_t face, std::int32_t part) {
+      for (Place& p : corners) p.face = face, p.corner = part;
+      return corners;
+    };
+    FacePlaces places;
+    for (std::int32_t f = 0; f < mesh_.face_count; ++f) {
+      const std::int32_t size = mesh_.face_sizes[f];
+      places.push_back(on_face(quads ? quad : triangle, f, 0));
+      if (quads && size != 4) places.back().clear();
+      for (std::int32_t k = 0; quads && size != 4 && k < size; ++k) places.back().push_back({f, 0, 0, 1, k});
+    }
+    for (int step = 0; step < depth; ++step) {
+      const Far::TopologyLevel &before = refiner_->GetLevel(step), &level = refiner_->GetLevel(step + 1);
+      FacePlaces next(static_cast<std::size_t>(level.GetNumFaces()));
+      for (int f = 0; f < before.GetNumFaces(); ++f) {
+        const auto vertices = before.GetFaceVertices(f), edges = before.GetFaceEdges(f);
+        const auto children = before.GetFaceChildFaces(f);
+        const std::vector<Place>& of = places[static_cast<std::size_t>(f)];
+        const bool is_cut =
+            quads && of.size() != 4;  // a face of other corners is cut into quads, one at each
+        for (int part = 0; part < children.size(); ++part) {
+          auto& child = next[static_cast<std::size_t>(children[part])];
+          if (is_cut) {
+            child = on_face(quad, f, part);
+            continue;
+          }
+          const auto middle = [&](std::size_t a, std::size_t b) {
+            const Place &p = of[a % of.size()], &q = of[b % of.size()];
+            return Place{p.face, p.i + q.i, p.j + q.j, 2 * p.denominator, p.corner};
+          };
+          for (const int v : level.GetFaceVertices(children[part])) {
+            child.push_back(middle(0, 2));
+            for (std::size_t k = 0; k < of.size(); ++k) {
+              if (v == before.GetVertexChildVertex(vertices[static_cast<int>(k)]))
+                child.back() = middle(k, k);
+              if (v == before.GetEdgeChildVertex(edges[static_cast<int>(k)])) child.back() = middle(k, k + 1);
+            }
+          }
+        }
+      }
+      places = std::move(next);
+    }
+    return places;
   }
 
   const lc_mesh mesh_;

@@ -13,7 +13,7 @@
 
 #include <string>
 
-#include "verify/peers/refinement_tracker.h"
+#include "verify/peers/refining_subject.h"
 
 namespace {
 

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <map>
 #include <optional>
 #include <tuple>
 #include <vector>
 
-#include "verify/evidence/faces_around.h"
+#include "verify/evidence/cells.h"
 #include "verify/relations/relations.h"
 
 namespace limitcheck::verify {
@@ -31,35 +30,11 @@ int rank_of(std::size_t faces, std::size_t regular) {
 enum class Kind { kInner, kBoundary, kCrease, kDart, kCorner };
 constexpr std::array kWords{"inner vertex", "boundary vertex", "crease", "dart", "corner"};
 
-struct Vertex {
-  Kind kind = Kind::kInner;
-  std::size_t faces = 0;
-  bool regular(std::size_t regular_valence) const { return kind == Kind::kInner && faces == regular_valence; }
-};
-
-Vertex look_at(std::int32_t v, const data::ControlMesh& mesh, const FacesAround& around) {
-  std::map<std::int32_t, int> beside;  // neighbours of v, and in how many faces
-  for (const std::int32_t f : around.of(v)) {
-    const auto its = mesh.faces[static_cast<std::size_t>(f)];
-    for (std::size_t j = 0; j < its.size(); ++j)
-      if (its[j] == v) ++beside[its[(j + 1) % its.size()]], ++beside[its[(j + its.size() - 1) % its.size()]];
-  }
-  const bool border = std::any_of(beside.begin(), beside.end(), [](const auto& n) { return n.second == 1; });
-  const auto sharp =
-      std::count_if(mesh.sharpness.edges.begin(), mesh.sharpness.edges.end(), [&](const data::SharpEdge& e) {
-        const bool at_v = e.a == v || e.b == v;
-        return at_v && beside[e.a == v ? e.b : e.a] != 1;  // a border is sharp anyway
-      });
-  const bool tagged = std::any_of(mesh.sharpness.vertices.begin(), mesh.sharpness.vertices.end(),
-                                  [&](const data::SharpVertex& s) { return s.vertex == v; });
-  Vertex at{Kind::kInner, around.of(v).size()};
-  if (tagged || sharp > 2 || (border && sharp > 0))
-    at.kind = Kind::kCorner;
-  else if (border)
-    at.kind = Kind::kBoundary;
-  else if (sharp > 0)
-    at.kind = sharp == 1 ? Kind::kDart : Kind::kCrease;
-  return at;
+Kind kind_of(const ControlVertex& at) {
+  const int sharp = at.infinite + at.semi;
+  if (at.own > 0 || sharp > 2 || (at.boundary && sharp > 0)) return Kind::kCorner;
+  if (at.boundary) return Kind::kBoundary;
+  return sharp == 0 ? Kind::kInner : sharp == 1 ? Kind::kDart : Kind::kCrease;
 }
 
 // "3/32"
@@ -84,11 +59,11 @@ std::vector<double> nearness(const Result& finding, std::size_t corners, bool lo
   return near;
 }
 
-int depth_difference(const AuditMesh& audited, std::size_t face, const FacesAround& around) {
+int depth_difference(const AuditMesh& audited, std::size_t face, const std::vector<ControlVertex>& vertices) {
   int difference = 0;
   if (audited.face_depth.empty()) return 0;
   for (const std::int32_t v : audited.mesh.faces[face])
-    for (const std::int32_t f : around.of(v)) {
+    for (const std::int32_t f : vertices[static_cast<std::size_t>(v)].faces) {
       const int other = audited.face_depth[static_cast<std::size_t>(f)];
       if (other >= 0) difference = std::max(difference, std::abs(other - audited.face_depth[face]));
     }
@@ -126,7 +101,7 @@ LikelyCause likely_cause(const Result& finding, const AuditMesh& audited) {
     return {};
   const auto face = static_cast<std::size_t>(finding.witness->face);
   const auto corners = mesh.faces[face];
-  const FacesAround around(mesh.faces, mesh.positions.size());
+  const std::vector<ControlVertex> vertices = ControlVertices(Lattice(mesh, audited.scheme(), 0)).all;
   const bool loop = finding.scheme == data::Scheme::kLoop;
   const std::size_t regular = loop ? 6 : 4;
 
@@ -136,14 +111,15 @@ LikelyCause likely_cause(const Result& finding, const AuditMesh& audited) {
   int extraordinary = 0;
   for (std::size_t k = 0; k < near.size(); ++k) {
     const bool of_face = k == corners.size();
-    const Vertex at = of_face ? Vertex{Kind::kInner, corners.size()} : look_at(corners[k], mesh, around);
-    if (at.regular(regular)) continue;
+    const ControlVertex* const at = of_face ? nullptr : &vertices[static_cast<std::size_t>(corners[k])];
+    const std::tuple here{near[k], at == nullptr ? Kind::kInner : kind_of(*at),
+                          at == nullptr ? corners.size() : at->faces.size()};
+    if (std::get<Kind>(here) == Kind::kInner && std::get<std::size_t>(here) == regular) continue;
     ++extraordinary;
-    const std::tuple here{near[k], at.kind, at.faces};
     if (!cause || here > *cause) cause = here, middle = of_face;
   }
   LikelyCause where;
-  where.difference = std::min(4, depth_difference(audited, face, around));
+  where.difference = std::min(4, depth_difference(audited, face, vertices));
   where.kind = "regular";
   if (!cause) return where;
   const auto [nearness, kind, faces] = *cause;

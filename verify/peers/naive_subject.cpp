@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <set>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,11 +21,11 @@
 #include "reference/catmull_clark/naive.h"
 #include "reference/loop/naive.h"
 #include "reference/loop/refine.h"
-#include "reference/mesh/sharpness.h"
 #include "reference/surface/channel.h"
 #include "verify/peers/evaluated_faces.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/face_domain.h"
+#include "verify/subject/lattice.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/weights_option.h"
 
@@ -101,48 +101,6 @@ class Face {
   std::vector<std::uint32_t> vertex_;  // of each lattice point
 };
 
-// A point on a control edge: its ends, the smaller number first, and the way from there in 2^-31 of it. A
-// control vertex is both ends of its edge.
-using BorderPoint = std::array<std::int64_t, 3>;
-
-// Sets `point` and returns the side of the face on which it lies, or -1 for a point inside.
-int on_border(std::span<const std::int32_t> face, FaceDomain domain, const Corner& corner, int depth,
-              BorderPoint& point) {
-  const std::int64_t n = std::int64_t{1} << depth, unit = std::int64_t{1} << (31 - depth);
-  const auto place = domain.side_of(corner.at, n);
-  if (!place) return -1;
-  std::int64_t a = face[place->side], b = face[domain.next(place->side)], way = place->along;
-  if (way == 0) b = a;
-  if (a > b) std::swap(a, b), way = n - way;
-  point = {a, b, way * unit};
-  return place->side;
-}
-
-// Which faces have a common normal at a point of a control edge: on an edge that stays sharp there is one for
-// each side, at its ends one for each sector between such edges.
-class Sides {
- public:
-  explicit Sides(const data::ControlMesh& mesh) {
-    if (mesh.sharpness.empty()) return;
-    const reference::Topology topology(mesh.positions.size(), mesh.faces);
-    cut_ = reference::Sharpness(topology, mesh.sharpness).cut(topology).faces;
-    for (const data::SharpEdge& e : mesh.sharpness.edges)
-      if (e.sharpness >= data::kInfiniteSharpness) edges_.insert(std::minmax(e.a, e.b));
-  }
-  // The same number in all faces that do.
-  //   corner   of the face, where the point is a corner
-  std::int64_t number(const BorderPoint& point, std::size_t face, int corner) const {
-    const std::int64_t a = point[0], b = point[1];
-    if (cut_.size() > 0 && a == b) return cut_[face][static_cast<std::size_t>(corner)];
-    const bool sharp = edges_.count({static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)}) > 0;
-    return sharp ? static_cast<std::int64_t>(face) : -1;
-  }
-
- private:
-  data::Faces cut_;  // the faces with a copy of each vertex for each of its sectors
-  std::set<std::pair<std::int32_t, std::int32_t>> edges_;
-};
-
 class NaiveSubject {
  public:
   static lc_capabilities capabilities(Options& options, lc_scheme) {
@@ -159,8 +117,7 @@ class NaiveSubject {
       : lent_(mesh),
         mesh_(control_mesh(mesh)),
         scheme_(scheme_of(mesh.scheme)),
-        subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))),
-        sides_(mesh_) {}
+        subdivider_(make_subdivider(mesh_, scheme_, family(weights_option(options)))) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const auto count = static_cast<std::int64_t>(mesh_.faces.size());
@@ -168,7 +125,7 @@ class NaiveSubject {
 
     // The number of vertices of a face is known only when it is done, so all faces come first, then the
     // arrays.
-    std::vector<std::unique_ptr<Face>> faces(mesh_.faces.size());
+    Faces faces(mesh_.faces.size());
     faces_in_parallel(count, request.threads, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t f = begin; f < end; ++f) {
         const auto k = static_cast<std::size_t>(f);
@@ -182,17 +139,13 @@ class NaiveSubject {
     DeliveredArrays all;
     for (std::size_t k = 0; k < faces.size(); ++k) {
       if (faces[k] == nullptr) continue;
-      const auto face = static_cast<std::int32_t>(k);
       const auto base = static_cast<std::uint32_t>(all.positions.size());
-      const auto denominator = static_cast<std::uint32_t>(
-          std::max<std::int64_t>(1, domain(k).denominator(std::int64_t{1} << depth[k])));
-      for (const Corner& corner : faces[k]->vertices)
-        all.add_vertex(corner.position, corner.normal,
-                       {face, static_cast<std::uint32_t>(corner.at.i),
-                        static_cast<std::uint32_t>(corner.at.j), denominator},
-                       corner.at.part);
+      for (const Corner& corner : faces[k]->vertices) {
+        const Place p = place(k, corner.at, depth[k]);
+        all.add_vertex(corner.position, corner.normal, {p.face, p.i, p.j, p.denominator}, p.corner);
+      }
       for (const auto& [a, b, c] : faces[k]->triangles)
-        all.add_triangle({base + a, base + b, base + c}, face);
+        all.add_triangle({base + a, base + b, base + c}, static_cast<std::int32_t>(k));
       if (mesh_.channels.empty()) faces[k].reset();
     }
     all.hand_over<double>(request, out, /*with_normals=*/true,
@@ -217,34 +170,53 @@ class NaiveSubject {
   }
   FaceDomain domain(std::size_t face) const { return {scheme_, static_cast<int>(mesh_.faces[face].size())}; }
 
-  // Position and normal of each point on control edges, whatever the order of faces.
-  void agree_on_borders(std::vector<std::unique_ptr<Face>>& faces,
-                        std::span<const std::int32_t> depth) const {
-    const auto each = [&](const auto& body) {
-      BorderPoint point{};
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        if (faces[f] != nullptr)
-          for (Corner& corner : faces[f]->vertices)
-            if (const int side = on_border(mesh_.faces[f], domain(f), corner, depth[f], point); side >= 0)
-              body(point, sides_.number(point, f, side), corner);
-    };
-    std::map<BorderPoint, Vec3> position;
-    std::map<std::pair<BorderPoint, std::int64_t>, Vec3> normal;
-    each([&](const BorderPoint& point, std::int64_t side, const Corner& corner) {
+  using Faces = std::vector<std::unique_ptr<Face>>;
+  using FaceDepths = std::span<const std::int32_t>;
+
+  Place place(std::size_t face, const FaceDomain::Point& at, int depth) const {
+    const std::int64_t denominator = domain(face).denominator(std::int64_t{1} << depth);
+    return {static_cast<std::int32_t>(face), static_cast<std::uint32_t>(at.i),
+            static_cast<std::uint32_t>(at.j),
+            static_cast<std::uint32_t>(std::max<std::int64_t>(1, denominator)), at.part};
+  }
+
+  // Calls body(point, face, vertex) for the vertices on edges of a mesh that has faces as this one does.
+  template <class Body>
+  void each_on_edges(const data::ControlMesh& mesh, const Faces& faces, FaceDepths depth,
+                     const Body& body) const {
+    std::int32_t deepest = 0;
+    for (const std::int32_t d : depth) deepest = std::max(deepest, d);
+    const Lattice lattice(mesh, scheme_, deepest);
+    const Sides sides(lattice);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+      for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v)
+        if (const Lattice::Id id = lattice.id(place(f, faces[f]->vertices[v].at, depth[f]));
+            lattice.is_shared(id))
+          body(id, sides.of(id, static_cast<std::int32_t>(f)), f, v);
+  }
+
+  // Position and normal of each point on control edges, whatever the order of faces; the normal of each side of an edge
+  // that stays sharp.
+  void agree_on_borders(Faces& faces, FaceDepths depth) const {
+    std::unordered_map<Lattice::Id, Vec3> position, normal;
+    each_on_edges(mesh_, faces, depth, [&](Lattice::Id point, Sides::Id side, std::size_t f, std::size_t v) {
+      const Corner& corner = faces[f]->vertices[v];
       agree(position.try_emplace(point, corner.position).first->second, corner.position);
-      agree(normal.try_emplace({point, side}, corner.normal).first->second, corner.normal);
+      agree(normal.try_emplace(side, corner.normal).first->second, corner.normal);
     });
-    each([&](const BorderPoint& point, std::int64_t side, Corner& corner) {
-      corner.position = position.at(point);
-      corner.normal = normal.at({point, side});
+    each_on_edges(mesh_, faces, depth, [&](Lattice::Id point, Sides::Id side, std::size_t f, std::size_t v) {
+      faces[f]->vertices[v].position = position.at(point);
+      faces[f]->vertices[v].normal = normal.at(side);
     });
   }
 
   // Of each corner of each triangle; of the values of one point on one side of a seam the first in the order of their
   // bits is taken, as of positions. Channels are evaluated by the reference, three components at a time.
-  void put_channel(const data::Channel& channel, const std::vector<std::unique_ptr<Face>>& faces,
-                   std::span<const std::int32_t> depth, double* to, double* derivatives) {
-    const data::Faces cut = reference::faces_of_cut(mesh_, channel);
+  void put_channel(const data::Channel& channel, const Faces& faces, FaceDepths depth, double* to,
+                   double* derivatives) {
+    data::ControlMesh cut;
+    cut.faces = reference::faces_of_cut(mesh_, channel);
+    cut.positions.resize(cut.faces.corners().size());  // more than there are
     const data::ChannelRule rule = channel.rule.value_or(data::kUsualChannelRule);
     for (int first = 0; first < channel.components; first += 3) {
       const int count = std::min(3, channel.components - first);
@@ -252,31 +224,24 @@ class NaiveSubject {
           channels_.try_emplace({&channel, first}, mesh_, channel.some(first, count), rule, scheme_)
               .first->second;
       const auto evaluate = [&](std::size_t f, const FaceDomain::Point& at) {
-        const double n =
-            std::max(1., static_cast<double>(domain(f).denominator(std::int64_t{1} << depth[f])));
-        return surface.evaluate(static_cast<int>(f), at.part, static_cast<double>(at.i) / n,
-                                static_cast<double>(at.j) / n);
+        const Place p = place(f, at, depth[f]);
+        const double n = p.denominator;
+        return surface.evaluate(p.face, p.corner, p.i / n, p.j / n);
       };
       std::vector<std::vector<Vec3>> values(faces.size());
       std::vector<std::vector<std::array<Vec3, 2>>> slopes(faces.size());
-      std::map<BorderPoint, Vec3> agreed;
-      BorderPoint point{};
-      const auto each = [&](const auto& body) {
-        for (std::size_t f = 0; f < faces.size(); ++f)
-          for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v)
-            body(f, v, faces[f]->vertices[v]);
-      };
-      each([&](std::size_t f, std::size_t v, const Corner& corner) {
-        values[f].resize(faces[f]->vertices.size());
-        slopes[f].resize(values[f].size());
-        const auto at = evaluate(f, corner.at);
-        values[f][v] = at.position;
-        slopes[f][v] = {at.d1, at.d2};
-        if (on_border(cut[f], domain(f), corner, depth[f], point) >= 0)
-          agree(agreed.try_emplace(point, values[f][v]).first->second, values[f][v]);
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v) {
+          const auto at = evaluate(f, faces[f]->vertices[v].at);
+          values[f].push_back(at.position);
+          slopes[f].push_back({at.d1, at.d2});
+        }
+      std::unordered_map<Lattice::Id, Vec3> agreed;
+      each_on_edges(cut, faces, depth, [&](Lattice::Id point, Sides::Id, std::size_t f, std::size_t v) {
+        agree(agreed.try_emplace(point, values[f][v]).first->second, values[f][v]);
       });
-      each([&](std::size_t f, std::size_t v, const Corner& corner) {
-        if (on_border(cut[f], domain(f), corner, depth[f], point) >= 0) values[f][v] = agreed.at(point);
+      each_on_edges(cut, faces, depth, [&](Lattice::Id point, Sides::Id, std::size_t f, std::size_t v) {
+        values[f][v] = agreed.at(point);
       });
       std::size_t written = 0;
       const auto put = [&](const Vec3& value, double* place) {
@@ -310,7 +275,6 @@ class NaiveSubject {
   const data::ControlMesh mesh_;
   const data::Scheme scheme_;
   const Subdivider subdivider_;
-  const Sides sides_;
   // Of a channel from a component on, made when first asked for.
   std::map<std::pair<const data::Channel*, int>, const reference::ChannelSurface> channels_;
 };

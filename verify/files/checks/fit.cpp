@@ -82,6 +82,7 @@ Affine3d normal_step(const Points& mapped, const Feet& feet, Fit kind, const Vec
   for (Index k = 0; kind != Fit::kScale && k < mapped.cols(); ++k)
     rows.row(k).tail(3) = x.col(k).cross(feet.normal.col(k));
   const Eigen::VectorXd right = (feet.at - mapped).cwiseProduct(feet.normal).colwise().sum() / size;
+  if (!rows.allFinite() || !right.allFinite()) return Affine3d::Identity();  // a foot without a normal
   // The shortest solution: directions in which the surface can slide along itself stay as they are.
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd delta = svd.setThreshold(1e-9).solve(right);
@@ -100,7 +101,7 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
     for (const Vector& c : surface.lattice().corners(t)) corners.push_back(c);
   const Eigen::AlignedBox3d to = box_of(corners), from = box_of(points);
   const double size = to.diagonal().norm(), own_size = from.diagonal().norm();
-  if (!(own_size > 0)) return {};
+  if (!(size > 0 && own_size > 0)) return {};  // nothing can be laid on a point
 
   // Where to start.
   const Points few = chosen(points, 256), some = chosen(points, 4096);
@@ -132,8 +133,9 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
     best = next, feet = std::move(there), least = feet.error;
     if (done) break;
   }
-  Similarity map{.scale = std::cbrt(best.linear().determinant()), .residual = std::sqrt(least)};
-  Rows::Map(map.rotation[0].data()) = best.linear() / map.scale;
+  const Vector3d first = best.linear().col(0);
+  Similarity map{.scale = kind == Fit::kScale ? first[0] : first.stableNorm(), .residual = std::sqrt(least)};
+  if (map.scale != 0) Rows::Map(map.rotation[0].data()) = best.linear() / map.scale;
   Vector3d::Map(map.offset.data()) = best.translation();
   return map;
 }

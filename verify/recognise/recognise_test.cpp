@@ -227,16 +227,17 @@ TEST(Recognise, WarrensWeights) {
               "the limit points of Loop's rule with Warren's simplified weights (2 steps)");
 }
 
-// `cgal` with other positions at the places that it names.
+// The model with other positions at the places that it names.
 template <Vector (*kAt)(const data::ControlMesh&, const lc_provenance&)>
 class Elsewhere {
  public:
   static constexpr std::int32_t kSchemes = LC_DOES_LOOP;
+  static constexpr const char* kInside = "points=refined";
 
   static lc_capabilities capabilities(Options&, lc_scheme) {
     lc_capabilities c{};
     const char* message = nullptr;
-    lc_subject_cgal()->capabilities(nullptr, &c, &message);
+    lc_subject_model()->capabilities(kInside, &c, &message);
     c.points = LC_POINTS_LIMIT;
     return c;
   }
@@ -247,14 +248,14 @@ class Elsewhere {
     for (std::int64_t t = 0; t < mesh.triangle_count; ++t)
       mesh_.faces.push_back({mesh.triangles[3 * t], mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]});
     const char* message = nullptr;
-    lc_subject_cgal()->create(&mesh, nullptr, &inside_, &message);
+    lc_subject_model()->create(&mesh, kInside, &inside_, &message);
   }
-  ~Elsewhere() { lc_subject_cgal()->destroy(inside_); }
+  ~Elsewhere() { lc_subject_model()->destroy(inside_); }
   Elsewhere(const Elsewhere&) = delete;
   Elsewhere& operator=(const Elsewhere&) = delete;
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const char* message = nullptr;
-    lc_subject_cgal()->tessellate(inside_, &request, &out, &message);
+    lc_subject_model()->tessellate(inside_, &request, &out, &message);
     for (std::int64_t v = 0; v < out.vertex_count; ++v) {
       const Vector p = kAt(mesh_, out.provenance[v]);
       for (int c = 0; c < 3; ++c) static_cast<double*>(out.positions)[3 * v + c] = p[c];

@@ -38,7 +38,7 @@ std::set<std::string> tests_in_the_sources() {
 TEST(ClaimRegister, HasItsClaimsEachWithAKnownVerdict) {
   const auto json = nlohmann::json::parse(
       contents_of(fs::path(LIMITCHECK_SOURCE_DIR) / "papers/mueller-havemann-2000/claims.json"));
-  ASSERT_EQ(json["claims"].size(), 91U);
+  ASSERT_EQ(json["claims"].size(), 92U);
   std::set<std::string> ids;
   for (const auto& claim : json["claims"]) {
     EXPECT_TRUE(ids.insert(claim["id"].get<std::string>()).second) << claim["id"];
@@ -57,7 +57,7 @@ TEST(ClaimRegister, NamesOnlyTestsThatExist) {
     for (const auto& name : claim["check"])
       EXPECT_TRUE(tests.contains(name.get<std::string>())) << claim["id"] << " names " << name;
   }
-  constexpr int kFloor = 88;  // of 91: what the coverage of claims must not fall below
+  constexpr int kFloor = 89;  // of 92: what the coverage of claims must not fall below
   EXPECT_GE(checked, kFloor);
 }
 
@@ -167,7 +167,7 @@ TEST_F(RunClaims, WhereNothingCanBeRunItIsNotCheckableAndSaysWhy) {
 }
 
 TEST(Register, HasATestOrAReasonForEachOfItsClaims) {
-  EXPECT_EQ(claim_register().size(), 91U);
+  EXPECT_EQ(claim_register().size(), 92U);
   for (const Claim& c : claim_register()) EXPECT_NE(c.check.empty(), c.why.empty()) << c.id;
 }
 
@@ -178,7 +178,7 @@ TEST(Register, CountsItsVerdictsInTheirOwnOrder) {
   ASSERT_EQ(counts.front().first, "confirmed");
   std::int64_t sum = 0;
   for (const auto& [verdict, count] : counts) sum += count;
-  EXPECT_EQ(sum, 91);
+  EXPECT_EQ(sum, 92);
   EXPECT_EQ(count_verdicts({}).front().second, 0);
 }
 

@@ -67,6 +67,8 @@ GlContext::GlContext(int major, int minor) {
   if (!lack_of_gl().empty()) throw std::runtime_error(lack_of_gl());
   EGLDisplay display = card();
   if (display == EGL_NO_DISPLAY) {
+    // Where libEGL finds no driver it has none of these, and epoxy ends the process of who calls it.
+    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) fail("EGL_EXT_platform_base");
     display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display == EGL_NO_DISPLAY) fail("eglGetPlatformDisplay");
     if (!eglInitialize(display, nullptr, nullptr)) fail("eglInitialize");

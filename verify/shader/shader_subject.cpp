@@ -58,6 +58,7 @@ class ShaderSubject {
     c.sharp = s.sharp;
     c.does_not_validate = 1;
     c.no_provenance = s.form == Form::kPasses;
+    c.points_anywhere = s.form == Form::kTessellation && s.points == LC_POINTS_LIMIT;
     return c;
   }
 

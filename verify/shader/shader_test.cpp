@@ -61,6 +61,26 @@ TEST_F(ShaderDoor, TheTemplatesOfAFunctionAndOfATessellationShaderHoldOnARegular
   }
 }
 
+// Hardware cuts triangles otherwise than into halves.
+TEST_F(ShaderDoor, EachVertexOfATessellationShaderIsJudgedWhereItLies) {
+  write("flat.glsl", R"(#pragma limitcheck tessellate
+#pragma limitcheck scheme loop
+#pragma limitcheck no-normals
+layout(triangles, equal_spacing, ccw) in;
+void main() {
+  int a = lc_first(lc_patch_face), b = lc_next(a), c = lc_next(b);
+  vec3 p = gl_TessCoord.x * lc_position(lc_vertex(a)) + gl_TessCoord.y * lc_position(lc_vertex(b)) +
+           gl_TessCoord.z * lc_position(lc_vertex(c));
+  lc_put(p, vec3(0), lc_patch_face, 0, gl_TessCoord.yz);
+}
+)");
+  const json report = audited("flat.glsl octahedron --depth 3 --level quick", 1);
+  EXPECT_EQ(status(report, "coverage", "octahedron"), "held");
+  const json positions = row(report, "positions", "octahedron");
+  EXPECT_EQ(positions["of"], row(report, "finite", "octahedron")["of"]);
+  EXPECT_EQ(positions["count"], positions["of"]) << "the flat faces lie outside the surface";
+}
+
 TEST_F(ShaderDoor, TheTemplateOfPassesRefinesQuadsAndPolygonsInsideAndAtBoundaries) {
   const std::string meshes = "quad-cube quad-fan:1 quad-fan:5 prism:5 mixed:1:40";
   const json report = audited((kTemplates / "passes.glsl").string() + " " + meshes + " --depth 3", 0);

@@ -36,8 +36,8 @@ struct SharedMemory {
     const int n = 1 << depth, row = 6 * (n + 1);
     // Rows: three of each level, or two levels in turn; the windows; what each level takes from a corner.
     const auto laid_out = [&](int rows, int windows, int taken, int behind) {
-      const int borders = std::max(rows, windows);
-      return SharedMemory{borders, borders + taken, borders + taken + behind};
+      const int before = std::max(rows, windows);
+      return SharedMemory{before, before + taken, before + taken + behind};
     };
     const int quad_window = 3 * row_stream::quad_window_width(depth);
     switch (shader) {

@@ -15,8 +15,6 @@ namespace limitcheck::verify::test {
 
 namespace {
 
-constexpr std::uint32_t kBindings = VulkanDevice::kBindings;
-
 void check(VkResult result, const char* what) {
   if (result != VK_SUCCESS)
     throw std::runtime_error(std::string(what) + " failed: " + std::to_string(static_cast<int>(result)));

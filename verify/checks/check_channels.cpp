@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -125,10 +126,11 @@ class Part {
   }
   // What should come.
   std::vector<Point> expected(const std::vector<Place>& places) const {
-    const reference::ChannelSurface surface(e_.mesh, values_, rule(), e_.lattice.scheme());
-    std::vector<Point> all;
-    all.reserve(places.size());
-    for (const Place& p : places) all.push_back(evaluate(surface, p));
+    if (!surface_)
+      surface_ = std::make_unique<reference::ChannelSurface>(e_.mesh, values_, rule(), e_.lattice.scheme());
+    std::vector<Point> all(places.size());
+    tbb::parallel_for(std::size_t{0}, places.size(),
+                      [&](std::size_t k) { all[k] = evaluate(*surface_, places[k]); });
     return all;
   }
   // Whether another channel explains what is wrong. Most are seen not to at a few corners.
@@ -176,6 +178,7 @@ class Part {
   int first_, count_;
   data::Channel values_;  // of these components alone
   double magnitude_ = 0, diagonal_ = 0;
+  mutable std::unique_ptr<const reference::ChannelSurface> surface_;
   mutable std::unique_ptr<const reference::ChannelEvaluator> certified_;
 };
 

@@ -349,7 +349,7 @@ std::vector<Change> by_places() {
                   on_boundary),
       on(Change::On::kQuads, on_faces("channel_linear_polygons", "faces that are no quads are linear", kAll,
                                       [](A a, std::size_t f) { return a.is_polygon(f); })),
-      of_channels(
+      sharp(of_channels(
           deliver("channel_chaikin_in_the_cut",
                   "by Chaikin's creasing sharpness falls in the mesh that is cut", "channel-positions",
                   [](A a, D out) {
@@ -358,7 +358,7 @@ std::vector<Change> by_places() {
                       std::copy_n(cut.positions[cut.triangles[c / 3][c % 3]].begin(), 2,
                                   &out.channel_values[2 * c]);
                   }),
-          [](A a) { return a.deepest > 0 && has_sharpness_across_seams(a); }),
+          [](A a) { return a.deepest > 0 && has_sharpness_across_seams(a); })),
       tags_of_channel("channel_without_tags", "channels know no sharp edges and vertices",
                       [](Tags t) { t = {}; }),
       tags_of_channel("channel_without_sharp_vertices", "channels know no sharp vertices",

@@ -155,7 +155,7 @@ class NaiveSubject {
     double* derivatives =
         allocate_channels<double>(request, lent_, out, &lc_tessellation::channel_derivatives);
     for (const data::Channel& channel : mesh_.channels) {
-      put_channel(channel, faces, depth, to, derivatives);
+      put_channel(channel, faces, depth, request.threads, to, derivatives);
       to += 3 * std::ssize(all.triangles) * channel.components;
       derivatives += 6 * std::ssize(all.triangles) * channel.components;
     }
@@ -180,43 +180,50 @@ class NaiveSubject {
             static_cast<std::uint32_t>(std::max<std::int64_t>(1, denominator)), at.part};
   }
 
-  // Calls body(point, face, vertex) for the vertices on edges of a mesh that has faces as this one does.
-  template <class Body>
-  void each_on_edges(const data::ControlMesh& mesh, const Faces& faces, FaceDepths depth,
-                     const Body& body) const {
+  // The vertices that lie on edges of a mesh, which has faces as this one does.
+  struct OnEdge {
+    Lattice::Id point;
+    Sides::Id side;
+    std::size_t face, vertex;
+  };
+  std::vector<OnEdge> on_edges(const data::ControlMesh& mesh, const Faces& faces, FaceDepths depth) const {
     std::int32_t deepest = 0;
     for (const std::int32_t d : depth) deepest = std::max(deepest, d);
     const Lattice lattice(mesh, scheme_, deepest);
     const Sides sides(lattice);
+    std::vector<OnEdge> all;
     for (std::size_t f = 0; f < faces.size(); ++f)
       for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v)
         if (const Lattice::Id id = lattice.id(place(f, faces[f]->vertices[v].at, depth[f]));
             lattice.is_shared(id))
-          body(id, sides.of(id, static_cast<std::int32_t>(f)), f, v);
+          all.push_back({id, sides.of(id, static_cast<std::int32_t>(f)), f, v});
+    return all;
   }
 
   // Position and normal of each point on control edges, whatever the order of faces; the normal of each side of an edge
   // that stays sharp.
   void agree_on_borders(Faces& faces, FaceDepths depth) const {
+    const std::vector<OnEdge> shared = on_edges(mesh_, faces, depth);
     std::unordered_map<Lattice::Id, Vec3> position, normal;
-    each_on_edges(mesh_, faces, depth, [&](Lattice::Id point, Sides::Id side, std::size_t f, std::size_t v) {
+    for (const auto& [point, side, f, v] : shared) {
       const Corner& corner = faces[f]->vertices[v];
       agree(position.try_emplace(point, corner.position).first->second, corner.position);
       agree(normal.try_emplace(side, corner.normal).first->second, corner.normal);
-    });
-    each_on_edges(mesh_, faces, depth, [&](Lattice::Id point, Sides::Id side, std::size_t f, std::size_t v) {
+    }
+    for (const auto& [point, side, f, v] : shared) {
       faces[f]->vertices[v].position = position.at(point);
       faces[f]->vertices[v].normal = normal.at(side);
-    });
+    }
   }
 
   // Of each corner of each triangle; of the values of one point on one side of a seam the first in the order of their
   // bits is taken, as of positions. Channels are evaluated by the reference, three components at a time.
-  void put_channel(const data::Channel& channel, const Faces& faces, FaceDepths depth, double* to,
-                   double* derivatives) {
+  void put_channel(const data::Channel& channel, const Faces& faces, FaceDepths depth, int threads,
+                   double* to, double* derivatives) {
     data::ControlMesh cut;
     cut.faces = reference::faces_of_cut(mesh_, channel);
     cut.positions.resize(cut.faces.corners().size());  // more than there are
+    const std::vector<OnEdge> shared = on_edges(cut, faces, depth);
     const data::ChannelRule rule = channel.rule.value_or(data::kUsualChannelRule);
     for (int first = 0; first < channel.components; first += 3) {
       const int count = std::min(3, channel.components - first);
@@ -230,19 +237,18 @@ class NaiveSubject {
       };
       std::vector<std::vector<Vec3>> values(faces.size());
       std::vector<std::vector<std::array<Vec3, 2>>> slopes(faces.size());
-      for (std::size_t f = 0; f < faces.size(); ++f)
-        for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v) {
-          const auto at = evaluate(f, faces[f]->vertices[v].at);
-          values[f].push_back(at.position);
-          slopes[f].push_back({at.d1, at.d2});
-        }
+      faces_in_parallel(std::ssize(faces), threads, [&](std::int64_t begin, std::int64_t end) {
+        for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f)
+          for (std::size_t v = 0; faces[f] != nullptr && v < faces[f]->vertices.size(); ++v) {
+            const auto at = evaluate(f, faces[f]->vertices[v].at);
+            values[f].push_back(at.position);
+            slopes[f].push_back({at.d1, at.d2});
+          }
+      });
       std::unordered_map<Lattice::Id, Vec3> agreed;
-      each_on_edges(cut, faces, depth, [&](Lattice::Id point, Sides::Id, std::size_t f, std::size_t v) {
+      for (const auto& [point, side, f, v] : shared)
         agree(agreed.try_emplace(point, values[f][v]).first->second, values[f][v]);
-      });
-      each_on_edges(cut, faces, depth, [&](Lattice::Id point, Sides::Id, std::size_t f, std::size_t v) {
-        values[f][v] = agreed.at(point);
-      });
+      for (const auto& [point, side, f, v] : shared) values[f][v] = agreed.at(point);
       std::size_t written = 0;
       const auto put = [&](const Vec3& value, double* place) {
         const std::array all{value.x, value.y, value.z};

@@ -205,7 +205,7 @@ TEST_F(ClaimsCommand, ASignalLeavesNothingBehind) {
 }
 
 TEST_F(ClaimsCommand, AnUnknownClaimIsBadUsage) {
-  const Outcome o = run("claims C92", 2);
+  const Outcome o = run("claims C93", 2);
   EXPECT_TRUE(says(o.err, "C01 to C92"));
 }
 

@@ -57,8 +57,11 @@ Sharpness::Sharpness(const Topology& topology, const SharpTags& tags)
     tagged[at] = true;
     vertex_.set(at, s);
   }
-  for (const auto& tag : tags.beyond)
+  for (const auto& tag : tags.beyond) {
+    if (tag.vertex < 0 || static_cast<std::size_t>(tag.vertex) >= vertex_.size())
+      refuse("there is no vertex " + std::to_string(tag.vertex));
     beyond_[tag.vertex].push_back({exact_sharpness(tag.sharpness), tag.holds});
+  }
   if (tags.boundary == data::Boundary::kEdgeAndCorner)
     for (std::size_t v = 0; v < vertex_.size(); ++v) {
       const Sector sector = topology.sector(static_cast<std::int32_t>(v));

@@ -165,9 +165,9 @@ int audit(const Job& a) {
   std::vector<verify::AuditSubject> covering = audited;
   if (few && std::erase_if(covering, on_a_device) > 0)
     say(stderr,
-        "limitcheck: opensubdiv-gl and row-stream-gl are audited on a few meshes; on the whole plan, which "
-        "takes "
-        "minutes, by limitcheck audit opensubdiv-gl\n");
+        "limitcheck: opensubdiv-gl and row-stream-gl are audited on a few meshes; limitcheck audit "
+        "row-stream-gl "
+        "looks at the whole plan, which takes minutes\n");
   if (few && std::erase_if(covering, [](const verify::AuditSubject& s) { return !s.options.empty(); }) > 0)
     say(stderr, "limitcheck: subjects under options are audited on meshes of up to {} faces\n",
         verify::kMostFacesUnderOptions);

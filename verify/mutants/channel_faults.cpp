@@ -70,7 +70,8 @@ data::ControlMesh forgetful_cut(A a) {
   mesh.sharpness.triangles = a.mesh.sharpness.triangles;
   return mesh;
 }
-// By Chaikin's creasing it falls by these edges, too. They are told apart from those that hold a dependent value.
+// Whether that changes a sharpness, and nothing else: by Chaikin's creasing, where the edges beyond hold no dependent value,
+// and one of another sharpness ends at the same vertex inside the run.
 bool has_sharpness_across_seams(A a) {
   if (a.mesh.sharpness.creasing != data::Creasing::kChaikin || rule_of(a) >= ChannelRule::kBoundaries)
     return false;

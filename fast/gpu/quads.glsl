@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Row streaming of quads of any valences, a work group for each: quad_stream-inl.h, whose bits these are to
-// depth 4; from there on the processor takes the limits inside from the level before.
+// Row streaming of quads of any valences, a work group for each: quad_stream-inl.h, whose bits these are, but
+// that from depth 5 on the processor takes the limits inside from the level before.
 
 #if LOCAL
 layout(std430, binding = 3) readonly buffer SidePoints { float side_points[]; };  // four of each quad

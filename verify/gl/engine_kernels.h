@@ -18,7 +18,7 @@ struct EngineKernels {
 /// other. Throws std::runtime_error if there is no OpenGL, and kernels do if the driver refuses a shader.
 ///
 /// Bits: those of the scalar kernels on a number without fused multiply-add, on any GPU whose sums and products round
-/// as IEEE 754 says; inside quads to depth 4 (kFusedFrom).
+/// as IEEE 754 says; inside quads with the way that is taken to depth 4 at all (kFusedFrom).
 EngineKernels engine_kernels_by_gl();
 
 }  // namespace limitcheck::verify

@@ -5,13 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "fast/gpu/shaders.h"
-#include "verify/shared_bits/test_support/vulkan.h"
+#include "verify/shared_bits/test_support/spirv.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -22,10 +26,40 @@ constexpr std::array kShaders{Shader::kTriangleGrids, Shader::kTriangleEdges, Sh
                               Shader::kQuadSides, Shader::kQuadPatches};
 constexpr std::array kNames{"grids", "edges", "quads", "sides", "patches"};
 
-const test::VulkanDevice& navi21() {
-  setenv("RADV_FORCE_FAMILY", "navi21", 1);
-  static const test::VulkanDevice device(LIMITCHECK_RADV);
+const VulkanDevice& navi21() {
+  static const VulkanDevice device = [] {
+    setenv("RADV_FORCE_FAMILY", "navi21", 1);
+    setenv("VK_ICD_FILENAMES", LIMITCHECK_RADV, 1);
+    return VulkanDevice();
+  }();
   return device;
+}
+
+// What a driver says of a compiled shader: its figures by their names ("VGPRs", "LDS size"), and its assembly.
+struct CompiledShader {
+  std::map<std::string, std::uint64_t> figures;
+  std::string assembly;
+};
+CompiledShader compiled(const std::string& glsl) {
+  const VulkanDevice::Code code = test::spirv(glsl);
+  std::vector<VulkanDevice::Buffer> buffers{{0, {}, true}, {1, {}}, {2, {}}, {3, {}}, {4, {}}};
+  const auto made = navi21().compiled({code, "main", 1}, buffers);
+  const vk::raii::Device& device = navi21().device();
+  const vk::PipelineExecutableInfoKHR first(*made.pipeline);
+  CompiledShader result;
+  for (const auto& figure : device.getPipelineExecutableStatisticsKHR(first))
+    result.figures[figure.name] = figure.value.u64;
+  auto forms = device.getPipelineExecutableInternalRepresentationsKHR(first);
+  std::vector<std::string> texts;
+  texts.reserve(forms.size());
+  for (auto& form : forms) form.pData = texts.emplace_back(form.dataSize, '\0').data();
+  auto count = static_cast<std::uint32_t>(forms.size());
+  device.getDispatcher()->vkGetPipelineExecutableInternalRepresentationsKHR(
+      *device, reinterpret_cast<const VkPipelineExecutableInfoKHR*>(&first), &count,
+      reinterpret_cast<VkPipelineExecutableInternalRepresentationKHR*>(forms.data()));
+  for (std::size_t k = 0; k < forms.size(); ++k)
+    if (std::strcmp(forms[k].name, "Assembly") == 0) result.assembly = texts[k];
+  return result;
 }
 
 // Fused multiply-adds, each as it stands in the assembly; and those among them whose product is exact.
@@ -65,18 +99,17 @@ TEST(ShadersForNavi21, FuseNoProductThatRounds) {
     for (const bool local : {false, true})
       for (const int depth : {3, 5}) {
         const std::string text = fast::gpu::source(shader, depth, local);
-        const Fused with = fused(navi21().compile(test::spirv(text)).assembly);
+        const Fused with = fused(compiled(text).assembly);
         EXPECT_EQ(with.all, with.exact) << static_cast<int>(shader) << " depth " << depth << local;
         // So this compiler fuses where it may, and the test sees it.
-        EXPECT_GT(fused(navi21().compile(test::spirv(without_precise(text))).assembly).all.size(), 20)
-            << depth << local;
+        EXPECT_GT(fused(compiled(without_precise(text)).assembly).all.size(), 20) << depth << local;
       }
 }
 
 TEST(ShadersForNavi21, NeedAtMostFortyRegistersAndLittleSharedMemory) {
   for (const auto shader : kShaders)
     for (const bool local : {false, true}) {
-      const auto figures = navi21().compile(test::spirv(fast::gpu::source(shader, 5, local))).figures;
+      const auto figures = compiled(fast::gpu::source(shader, 5, local)).figures;
       const bool quads = shader != Shader::kTriangleGrids && shader != Shader::kTriangleEdges;
       const std::string name =
           fmt::format("{}_{}", kNames.at(static_cast<std::size_t>(shader)), local ? "local" : "common");

@@ -239,7 +239,8 @@ struct QuadCurve {
 };
 
 /// From this depth on the limits inside a quad come from the level before the last, whose points make the
-/// last level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever.
+/// last level's: half the memory, and fewer operations. Rows and columns next to the sides are as ever. A number
+/// with a member kNeverFused does without.
 constexpr int kFusedFrom = 5;
 
 /// Working memory of a kernel, in units of `lanes` numbers: four rows of each level from 1 on, or, before the

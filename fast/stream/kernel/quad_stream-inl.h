@@ -36,7 +36,7 @@ class QuadStream {
                       const To& target)
       : batch_(batch),
         depth_(batch.depth),
-        fused_(batch.depth >= kFusedFrom),
+        fused_(batch.depth >= kFusedFrom && !requires { N::kNeverFused; }),
         local_(placement.has_local_origin(batch.depth)),
         side_work_(work),
         border_(work + quad_border_offset(batch.depth) * L),

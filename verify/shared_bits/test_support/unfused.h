@@ -19,6 +19,8 @@
 namespace limitcheck::fast::row_stream {
 
 struct Unfused : ScalarNumber<float> {
+  static constexpr bool kNeverFused =
+      true;  // limits inside quads as at small depths: the shaders know no other way
   static float fma(float a, float b, float c) { return a * b + c; }
   static float fms(float a, float b, float c) { return a * b - c; }
   static float fnma(float a, float b, float c) { return c - a * b; }

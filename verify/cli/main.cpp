@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
                "Reproduce the paper: claims, tables, figures, and one page that shows them");
   add_external(app, exit_code, "bench",
                "Performance tracking: measure, compare, hold exact costs, draw the trend");
+  add_external(app, exit_code, "shader", "A GLSL file of `audit --shader` as GLSL for Vulkan");
   add_manual(app, exit_code);
   add_worker(app, exit_code);
 

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "verify/gl/guard_zone.h"
+
 namespace limitcheck::verify {
 
 namespace {
@@ -34,10 +36,6 @@ std::string readable(std::string_view log, const std::string& file) {
     text += line;
   }
   return text;
-}
-
-std::byte guard(std::size_t k) {
-  return static_cast<std::byte>(0x81 + (k * 0x9E3779B97F4A7C15ULL >> 58) % 62);
 }
 
 }  // namespace
@@ -108,8 +106,8 @@ void GlProgram::compute(std::int64_t items) const {
 }
 
 GuardedBuffer::GuardedBuffer(std::size_t bytes) : size_(bytes) {
-  std::vector<std::byte> content(bytes + kGuard, std::byte{0xFF});
-  for (std::size_t k = 0; k < kGuard; ++k) content[bytes + k] = guard(k);
+  std::vector<std::byte> content(bytes, std::byte{0xFF});
+  add_guard(content);
   glCreateBuffers(1, &name_);
   glNamedBufferData(name_, static_cast<GLsizeiptr>(content.size()), content.data(), GL_DYNAMIC_COPY);
   check_gl("a buffer");
@@ -125,14 +123,12 @@ void GuardedBuffer::bind(GLuint binding) const {
 }
 
 std::vector<std::byte> GuardedBuffer::read() const {
-  std::vector<std::byte> content(size_ + kGuard);
+  std::vector<std::byte> content(size_ + kDeviceGuard);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
   glFinish();
   glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(content.size()), content.data());
   check_gl("glGetNamedBufferSubData");
-  std::size_t behind = kGuard;
-  while (behind > 0 && content[size_ + behind - 1] == guard(behind - 1)) --behind;
-  content.resize(size_ + behind);
+  cut_guard(content, size_);
   return content;
 }
 

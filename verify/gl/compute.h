@@ -50,8 +50,6 @@ class GlProgram {
 /// it are 0xFF until they are written: a NaN, and no index.
 class GuardedBuffer {
  public:
-  static constexpr std::size_t kGuard = 1 << 16;
-
   explicit GuardedBuffer(std::size_t bytes);
   explicit GuardedBuffer(std::span<const std::int32_t> words) : GuardedBuffer(words.size_bytes()) {
     write(words.data(), words.size_bytes());

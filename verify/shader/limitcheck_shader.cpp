@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: MIT
-// limitcheck-shader: serves a GLSL file to an audit, each time in a process of its own: `limitcheck audit --shader FILE` starts it.
+// limitcheck-shader: serves a shader to an audit, each time in a process of its own: `limitcheck audit --shader FILE` starts it.
+// `limitcheck shader FILE` prints one for Vulkan.
 #include <cstdio>
+#include <exception>
 #include <span>
 #include <string_view>
 
 #include "verify/host/isolation/worker.h"
+#include "verify/shader/prelude.h"
 #include "verify/shader/shader_subject.h"
 
 int main(int argc, char** argv) {
+  using namespace limitcheck::verify;
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+  const std::string_view command = words.size() > 1 ? words[1] : "--help";
   const bool in_turns = words.size() == 5 && std::string_view(words[4]) == "--in-turns";
-  if (!(words.size() == 4 || in_turns) || std::string_view(words[1]) != "worker" ||
-      std::string_view(words[2]) != "shader") {
-    std::fputs("limitcheck-shader: `limitcheck audit --shader FILE` starts this program\n", stderr);
+  if ((words.size() == 4 || in_turns) && command == "worker" && std::string_view(words[2]) == "shader")
+    return serve([&]() -> const lc_subject& { return shader_subject(words[3]); }, in_turns);
+  if (words.size() != 2 || command.starts_with('-')) {
+    std::fputs(
+        "limitcheck shader FILE.glsl: the file with all that it is given, as GLSL for Vulkan\n"
+        "  limitcheck shader my.glsl > my.comp; glslangValidator -V my.comp -o my.spv\n"
+        "  cp my.glsl my.spv.pragmas; limitcheck audit --shader my.spv quad-torus\n",
+        command == "--help" ? stdout : stderr);
+    return command == "--help" ? 0 : 2;
+  }
+  try {
+    std::fputs(vulkan_text(read_shader(words[1])).c_str(), stdout);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "limitcheck: %s\n", error.what());
     return 2;
   }
-  return limitcheck::verify::serve(
-      [&]() -> const lc_subject& { return limitcheck::verify::shader_subject(words[3]); }, in_turns);
 }

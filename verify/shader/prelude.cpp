@@ -20,7 +20,13 @@ namespace {
 
 constexpr const char* kMesh = R"(
 layout(std430, binding = 0) readonly buffer lc_Input { int lc_input[]; };
+#ifdef VULKAN
+layout(push_constant) uniform lc_Parameters {
+  int lc_V, lc_F, lc_C, lc_E, lc_depth, lc_level, lc_items, lc_places, lc_vertices, lc_triangles;
+};
+#else
 uniform int lc_V, lc_F, lc_C, lc_E, lc_depth, lc_level, lc_items, lc_places, lc_vertices, lc_triangles, lc_first_patch;
+#endif
 float lc_number(int k) { return intBitsToFloat(lc_input[k]); }
 vec3 lc_position(int v) { return vec3(lc_number(3 * v), lc_number(3 * v + 1), lc_number(3 * v + 2)); }
 int lc_vertex(int h) { return lc_input[3 * lc_V + h]; }
@@ -164,38 +170,82 @@ HalfEdges::HalfEdges(const lc_mesh& mesh) {
   for (const float s : sharp_vertex) put(s);
 }
 
-std::vector<std::unique_ptr<GlProgram>> compiled(const ShaderSource& source, lc_scheme scheme) {
-  const std::string begin = fmt::format("#version 450 core\n#line {}\n#define {} 1\n{}", kNotOfTheFile,
-                                        scheme == LC_SCHEME_LOOP ? "LC_LOOP" : "LC_CATMULL_CLARK", kMesh),
-                    user = fmt::format("#line 1\n{}\n#line {}\n", source.text, kNotOfTheFile),
-                    group = source.own_group ? "" : "layout(local_size_x = 64) in;\n";
-  std::vector<std::unique_ptr<GlProgram>> programs;
+namespace {
+
+std::string before(lc_scheme scheme) {
+  return fmt::format("#version 450 core\n#line {}\n#define {} 1\n{}", kNotOfTheFile,
+                     scheme == LC_SCHEME_LOOP ? "LC_LOOP" : "LC_CATMULL_CLARK", kMesh);
+}
+std::string of_the_user(const ShaderSource& source) {
+  return fmt::format("#line 1\n{}\n#line {}\n", source.text, kNotOfTheFile);
+}
+// defined: what there is more of before the user's text.
+std::string compute_text(const ShaderSource& source, lc_scheme scheme, const std::string& defined = "") {
+  const bool function = source.form == ShaderSource::Form::kFunction;
+  return before(scheme) + (source.own_group ? "" : "layout(local_size_x = 64) in;\n") + kCompute +
+         (function ? kPlace : "") + defined + of_the_user(source) + (function ? kEachPlace : "");
+}
+
+}  // namespace
+
+GlPrograms::GlPrograms(const ShaderSource& source, lc_scheme scheme) {
+  const CurrentGl gl;
   const auto add = [&](const std::vector<GlProgram::Stage>& stages,
                        const std::vector<const char*>& captured = {}) {
-    programs.push_back(std::make_unique<GlProgram>(stages, source.file, captured));
+    programs_.push_back(std::make_unique<GlProgram>(stages, source.file, captured));
   };
   try {
     switch (source.form) {
       case ShaderSource::Form::kFunction:
-        add({{GL_COMPUTE_SHADER, begin + group + kCompute + kPlace + user + kEachPlace}});
+        add({{GL_COMPUTE_SHADER, compute_text(source, scheme)}});
         break;
       case ShaderSource::Form::kPasses:
         for (const ShaderSource::Pass& pass : source.passes)
-          add({{GL_COMPUTE_SHADER, begin + group + kCompute + "#define " + pass.name + " 1\n" + user}});
+          add({{GL_COMPUTE_SHADER, compute_text(source, scheme, "#define " + pass.name + " 1\n")}});
         break;
       case ShaderSource::Form::kTessellation:
         add({{GL_VERTEX_SHADER, "#version 450 core\nvoid main() {}\n"},
              {GL_TESS_CONTROL_SHADER,
-              begin + kPatch +
-                  (source.own_control ? "#define LC_CONTROL 1\n" + user : std::string(kControl))},
-             {GL_TESS_EVALUATION_SHADER, begin + kPatch + kPut + user}},
+              before(scheme) + kPatch +
+                  (source.own_control ? "#define LC_CONTROL 1\n" + of_the_user(source) : kControl)},
+             {GL_TESS_EVALUATION_SHADER, before(scheme) + kPatch + kPut + of_the_user(source)}},
             {"lc_out_position", "lc_out_normal", "lc_out_place", "lc_out_uv"});
         break;
     }
   } catch (const std::runtime_error& error) {
     throw SubjectError(LC_INVALID_INPUT, error.what());
   }
-  return programs;
+}
+
+std::int64_t GlPrograms::most_bytes_of_a_buffer() const {
+  const CurrentGl gl;
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  return most;
+}
+
+void GlPrograms::run(std::span<const ComputeStep> steps, std::vector<ComputeBuffer>& buffers) const {
+  const CurrentGl gl;
+  std::vector<GuardedBuffer> there;
+  for (const ComputeBuffer& b : buffers) {
+    there.emplace_back(b.size).write(b.content.data(), b.size);
+    there.back().bind(b.binding);
+  }
+  for (const ComputeStep& step : steps) used(step.program, step.parameters).compute(step.items);
+  for (std::size_t k = 0; k < buffers.size(); ++k) buffers[k].content = there[k].read();
+}
+
+const GlProgram& GlPrograms::used(std::size_t program, const Parameters& parameters) const {
+  const GlProgram& its = *programs_[program];
+  its.use();
+  for (std::size_t k = 0; k < parameters.size(); ++k) its.set(kParameters.at(k), parameters.at(k));
+  return its;
+}
+
+std::string vulkan_text(const ShaderSource& source) {
+  if (source.form == ShaderSource::Form::kTessellation)
+    throw SubjectError(LC_INVALID_INPUT, source.file + ": tessellation shaders are audited by OpenGL alone");
+  return compute_text(source, source.one_scheme());
 }
 
 }  // namespace limitcheck::verify

@@ -6,10 +6,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "verify/gl/compute.h"
-#include "verify/shader/source.h"
+#include "verify/gl/context.h"
+#include "verify/shader/programs.h"
 
 namespace limitcheck::verify {
 
@@ -22,9 +25,24 @@ struct HalfEdges {
   explicit HalfEdges(const lc_mesh& mesh);
 };
 
-/// The programs of a file for one scheme: one, or one for each pass. Throws SubjectError(LC_INVALID_INPUT), with the
-/// file's line.
-std::vector<std::unique_ptr<GlProgram>> compiled(const ShaderSource& source, lc_scheme scheme);
+/// A file by OpenGL, for one scheme. Throws SubjectError(LC_INVALID_INPUT), with the file's line, if the driver refuses it, and
+/// std::runtime_error if there is no OpenGL.
+class GlPrograms : public ComputePrograms {
+ public:
+  GlPrograms(const ShaderSource& source, lc_scheme scheme);
+  const std::string& device() const override { return gl_device(); }
+  std::int64_t most_bytes_of_a_buffer() const override;
+  void run(std::span<const ComputeStep> steps, std::vector<ComputeBuffer>& buffers) const override;
+  /// In use, knowing these. The caller holds a CurrentGl.
+  const GlProgram& used(std::size_t program, const Parameters& parameters) const;
+
+ private:
+  std::vector<std::unique_ptr<GlProgram>> programs_;
+};
+
+/// A file of one of the first two forms with all that it is given, as glslangValidator takes it: `-V`, and for a pass `-DNAME`.
+/// Throws SubjectError(LC_INVALID_INPUT).
+std::string vulkan_text(const ShaderSource& source);
 
 // Words of the output buffer before its first vertex: the largest number of a vertex that is none and the smallest one,
 // less 1; the same of triangles. -1: all were vertices, or triangles.

@@ -9,11 +9,13 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <new>
 #include <optional>
-#include <utility>
+#include <span>
 
 #include "verify/gl/context.h"
+#include "verify/gl/guard_zone.h"
 #include "verify/peers/evaluated_faces.h"
 #include "verify/shader/prelude.h"
 #include "verify/subject/adapter.h"
@@ -25,16 +27,18 @@ namespace limitcheck::verify {
 namespace {
 
 using Form = ShaderSource::Form;
-using Programs = std::vector<std::unique_ptr<GlProgram>>;
 
 std::optional<ShaderSource> the_source;
 
 // Once for each scheme, and there until the process ends.
-const Programs& programs(lc_scheme scheme) {
-  static auto& made = *new std::map<lc_scheme, Programs>;
-  const auto found = made.find(scheme);
-  return found != made.end() ? found->second
-                             : made.emplace(scheme, compiled(*the_source, scheme)).first->second;
+const ComputePrograms& programs(lc_scheme scheme) {
+  static auto& made = *new std::map<lc_scheme, std::unique_ptr<ComputePrograms>>;
+  auto found = made.find(scheme);
+  if (found == made.end())
+    found = made.emplace(scheme, the_source->spirv ? spirv_programs(*the_source)
+                                                   : std::make_unique<GlPrograms>(*the_source, scheme))
+                .first;
+  return *found->second;
 }
 
 // Of so many vectors of three numbers.
@@ -50,9 +54,7 @@ class ShaderSubject {
     const lc_scheme its = s.schemes == LC_DOES_LOOP            ? LC_SCHEME_LOOP
                           : s.schemes == LC_DOES_CATMULL_CLARK ? LC_SCHEME_CATMULL_CLARK
                                                                : scheme;
-    const CurrentGl gl;
-    (void)programs(its);
-    Devices::note(s.file, gl_device());
+    Devices::note(s.file, programs(its).device());
     lc_capabilities c{LC_FLOAT32, s.weights, s.boundary, s.points, s.max_depth, s.normals, 0, !s.approximate};
     c.schemes = s.schemes;
     c.sharp = s.sharp;
@@ -69,7 +71,6 @@ class ShaderSubject {
   }
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
-    const CurrentGl gl;
     counts_ = {mesh_.scheme, half_edges_.counts, uniform_depth(request, mesh_), 0};
     switch (the_source->form) {
       case Form::kFunction:
@@ -82,39 +83,45 @@ class ShaderSubject {
   }
 
  private:
-  // What all programs know.
-  void begin(const GlProgram& program, std::int64_t items, std::int64_t vertices,
-             std::int64_t triangles) const {
-    program.use();
+  // What all programs know, in the order of kParameters.
+  Parameters known(std::int64_t items, std::int64_t vertices, std::int64_t triangles) const {
     const auto& [v, f, c, e] = half_edges_.counts;
-    for (const auto& [name, value] : {std::pair{"lc_V", v},
-                                      {"lc_F", f},
-                                      {"lc_C", c},
-                                      {"lc_E", e},
-                                      {"lc_depth", counts_.depth},
-                                      {"lc_level", counts_.level},
-                                      {"lc_items", items},
-                                      {"lc_vertices", vertices},
-                                      {"lc_triangles", triangles},
-                                      {"lc_places", static_cast<std::int64_t>(half_edges_.words.size())}})
-      program.set(name, static_cast<std::int32_t>(value));
+    const std::array all{v,
+                         f,
+                         c,
+                         e,
+                         counts_.depth,
+                         counts_.level,
+                         items,
+                         static_cast<std::int64_t>(half_edges_.words.size()),
+                         vertices,
+                         triangles};
+    Parameters numbers;
+    std::transform(all.begin(), all.end(), numbers.begin(),
+                   [](std::int64_t n) { return static_cast<std::int32_t>(n); });
+    return numbers;
   }
-  GuardedBuffer device_buffer(std::int64_t bytes) const {
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    if (bytes < 0 || bytes > most - static_cast<std::int64_t>(GuardedBuffer::kGuard))
+  static ComputeBuffer input(const std::vector<std::int32_t>& words) {
+    const auto bytes = std::as_bytes(std::span(words));
+    return {0, {bytes.begin(), bytes.end()}};
+  }
+  ComputeBuffer device_buffer(std::int32_t binding, std::int64_t bytes) const {
+    const ComputePrograms& its = programs(mesh_.scheme);
+    const std::int64_t most = its.most_bytes_of_a_buffer();
+    if (bytes < 0 || bytes > most - static_cast<std::int64_t>(kDeviceGuard))
       throw SubjectError(LC_NOT_SUPPORTED,
-                         fmt::format("a buffer of {} bytes: {} are what {} has", bytes, most, gl_device()));
-    return GuardedBuffer(static_cast<std::size_t>(bytes));
+                         fmt::format("a buffer of {} bytes: {} are what {} has", bytes, most, its.device()));
+    return {static_cast<std::uint32_t>(binding),
+            std::vector<std::byte>(static_cast<std::size_t>(bytes), std::byte{0xFF})};
   }
-  GuardedBuffer output_buffer(std::int64_t vertices, std::int64_t triangles) const {
-    return device_buffer(4 * (static_cast<std::int64_t>(kOutputHead) + 6 * vertices + 3 * triangles));
+  ComputeBuffer output_buffer(std::int64_t vertices, std::int64_t triangles) const {
+    return device_buffer(1, 4 * (static_cast<std::int64_t>(kOutputHead) + 6 * vertices + 3 * triangles));
   }
 
   // Hands over what lies in the output buffer.
-  static void take(const GuardedBuffer& buffer, const Output<float>& output, std::int64_t vertices,
+  static void take(const ComputeBuffer& buffer, const Output<float>& output, std::int64_t vertices,
                    std::int64_t triangles, bool indices) {
-    const std::vector<std::byte> content = buffer.read();
+    const std::vector<std::byte>& content = buffer.content;
     std::array<std::int32_t, kOutputHead> beyond{};
     std::memcpy(beyond.data(), content.data(), sizeof beyond);
     const std::byte* from = content.data() + sizeof beyond;
@@ -129,8 +136,8 @@ class ShaderSubject {
       show_written_behind(output.triangles + 3 * triangles,
                           bytes_of(std::int64_t{1} + beyond[2] - triangles));
     if (beyond[3] < -1) show_written_before(output.triangles, bytes_of(std::int64_t{-1} - beyond[3]));
-    if (content.size() > buffer.size())
-      show_written_behind(output.triangles + 3 * triangles, content.size() - buffer.size());
+    if (content.size() > buffer.size)
+      show_written_behind(output.triangles + 3 * triangles, content.size() - buffer.size);
   }
 
   void run_function(const lc_request& request, lc_tessellation& out) {
@@ -148,33 +155,24 @@ class ShaderSubject {
                        {static_cast<std::int32_t>(f), p.part, static_cast<std::int32_t>(p.i),
                         static_cast<std::int32_t>(p.j), static_cast<std::int32_t>(pattern->denominator)});
     }
-    const GuardedBuffer input(words);
-    const GuardedBuffer buffer = output_buffer(patterns.vertices(), 0);
-    input.bind(0), buffer.bind(1);
-    const GlProgram& program = *programs(mesh_.scheme).front();
-    begin(program, patterns.vertices(), patterns.vertices(), 0);
-    program.compute(patterns.vertices());
-    take(buffer, output, patterns.vertices(), patterns.triangles(), /*indices=*/false);
+    const std::int64_t items = patterns.vertices();
+    std::vector<ComputeBuffer> buffers{input(words), output_buffer(items, 0)};
+    programs(mesh_.scheme).run(std::array{ComputeStep{0, items, known(items, items, 0)}}, buffers);
+    take(buffers[1], output, patterns.vertices(), patterns.triangles(), /*indices=*/false);
   }
 
   void run_passes(const lc_request& request, lc_tessellation& out) {
     const std::int64_t vertices = number(the_source->output[0]), triangles = number(the_source->output[1]);
     const auto output = allocate_output<float>(request, out, vertices, triangles, the_source->normals);
     out.provenance = nullptr, out.triangle_face = nullptr;
-    const GuardedBuffer input(half_edges_.words);
-    const GuardedBuffer buffer = output_buffer(vertices, triangles);
-    input.bind(0), buffer.bind(1);
-    std::vector<GuardedBuffer> own;
-    for (const ShaderSource::Buffer& b : the_source->buffers) {
-      own.push_back(device_buffer(number(b.bytes)));
-      own.back().bind(static_cast<GLuint>(b.binding));
-    }
+    std::vector<ComputeBuffer> buffers{input(half_edges_.words), output_buffer(vertices, triangles)};
+    for (const ShaderSource::Buffer& b : the_source->buffers)
+      buffers.push_back(device_buffer(b.binding, number(b.bytes)));
+    std::vector<ComputeStep> steps;
     const auto& passes = the_source->passes;
     const auto run = [&](std::size_t k) {
       const std::int64_t items = number(passes[k].items);
-      const GlProgram& program = *programs(mesh_.scheme)[k];
-      begin(program, items, vertices, triangles);
-      program.compute(items);
+      steps.push_back({k, items, known(items, vertices, triangles)});
     };
     for (std::size_t k = 0, end = 0; k < passes.size(); k = end) {
       end = k + 1;
@@ -192,12 +190,13 @@ class ShaderSubject {
       for (counts_.level = first; counts_.level <= last; ++counts_.level)
         for (std::size_t p = k; p < end; ++p) run(p);
     }
-    take(buffer, output, vertices, triangles, /*indices=*/true);
-    for (const GuardedBuffer& b : own)
-      if (const std::size_t all = b.read().size(); all > b.size()) {
-        auto* const shown = static_cast<std::byte*>(request.allocate(request.host, b.size()));
+    programs(mesh_.scheme).run(steps, buffers);
+    take(buffers[1], output, vertices, triangles, /*indices=*/true);
+    for (std::size_t k = 2; k < buffers.size(); ++k)
+      if (const ComputeBuffer& b = buffers[k]; b.content.size() > b.size) {
+        auto* const shown = static_cast<std::byte*>(request.allocate(request.host, b.size));
         if (shown == nullptr) throw std::bad_alloc();
-        show_written_behind(shown + b.size(), all - b.size());
+        show_written_behind(shown + b.size, b.content.size() - b.size);
       }
   }
   std::int64_t number(const Formula& formula) const {
@@ -221,10 +220,11 @@ class ShaderSubject {
         words.insert(words.end(),
                      {static_cast<std::int32_t>(f), corner, (1 << counts_.depth) >> (cut ? 1 : 0)});
     }
-    const GuardedBuffer input(words);
-    input.bind(0);
-    const GlProgram& program = *programs(mesh_.scheme).front();
-    begin(program, 0, 0, 0);
+    const CurrentGl gl;
+    const GuardedBuffer given(words);
+    given.bind(0);
+    const GlProgram& program =
+        dynamic_cast<const GlPrograms&>(programs(mesh_.scheme)).used(0, known(0, 0, 0));
     const auto patches = static_cast<std::int64_t>((words.size() - half_edges_.words.size()) / kPatchWords);
     const std::vector<std::int32_t> put = captured_patches(program, {.count = patches}, kPutWords);
     const auto vertices = static_cast<std::int64_t>(put.size() / kPutWords);
@@ -251,7 +251,7 @@ class ShaderSubject {
 
 const lc_subject& shader_subject(const std::string& file) {
   the_source = read_shader(file);
-  static const lc_subject subject = make_subject<ShaderSubject>("shader", "a shader of OpenGL");
+  static const lc_subject subject = make_subject<ShaderSubject>("shader", "a shader of OpenGL or Vulkan");
   return subject;
 }
 

@@ -4,47 +4,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "verify/cli/command_test.h"
 #include "verify/shader/prelude.h"
+#include "verify/shader/shader_door_test.h"
 #include "verify/shader/source.h"
 #include "verify/subject/subject_error.h"
 
 namespace limitcheck::cli {
 namespace {
-
-using nlohmann::json;
-const std::filesystem::path kTemplates =
-    std::filesystem::path(LIMITCHECK_SOURCE_DIR) / "verify/subject/examples/shaders";
-
-class ShaderDoor : public CommandTest {
- protected:
-  /// A template in which this stands once, changed, as file `wrong.glsl`.
-  void plant(const std::string& file, const std::string& right, const std::string& wrong) const {
-    std::string text = contents_of(kTemplates / file);
-    const std::size_t place = text.find(right);
-    ASSERT_NE(place, std::string::npos) << right;
-    ASSERT_EQ(text.find(right, place + 1), std::string::npos) << right;
-    write("wrong.glsl", text.replace(place, right.size(), wrong));
-  }
-  json audited(const std::string& arguments, int code) const {
-    return json_of("audit --json - --shader " + arguments, code);
-  }
-  static json row(const json& report, const std::string& check, const std::string& mesh = "quad-torus") {
-    for (const json& r : report["results"])
-      if (r["check"] == check && r["mesh"] == mesh) return r;
-    return {};
-  }
-  static std::string status(const json& report, const std::string& check,
-                            const std::string& mesh = "quad-torus") {
-    return row(report, check, mesh).value("status", "no such row");
-  }
-};
 
 // All vertices of quad-torus have four faces: its patches are bicubic B-splines. Shared points keep their bits with
 // turned corners, too.
@@ -129,7 +99,7 @@ TEST_F(ShaderDoor, ALoopWithoutEndIsAFindingAndTheAuditGoesOn) {
   plant("function.glsl", "  position = vec3(0);\n",
         "  position = vec3(0);\n  if (lc_F > 6)\n    for (int a = 0; a < 1000000000; ++a)\n"
         "      for (int b = 0; b < 1000000000; ++b) position.x = position.x * 0.999 + uv.x;\n");
-  const json report = audited("wrong.glsl quad-torus quad-cube --depth 1 --level quick --timeout 3", 1);
+  const json report = audited("wrong.glsl quad-torus quad-cube --depth 1 --level quick --timeout 15", 1);
   EXPECT_TRUE(status(report, "tessellates") == "timeout" || status(report, "positions") == "finding");
   EXPECT_EQ(status(report, "written", "quad-cube"), "held");
 }

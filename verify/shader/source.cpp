@@ -190,6 +190,9 @@ void take(ShaderSource& s, const Words& words) {
   } else if (key == "buffer") {
     need(words, 3, 3, "buffer BINDING BYTES");
     s.buffers.push_back({integer(words[1], 2, 63), formula(words[2])});
+    if (std::any_of(s.buffers.begin(), s.buffers.end() - 1,
+                    [&](const ShaderSource::Buffer& b) { return b.binding == s.buffers.back().binding; }))
+      refuse("binding " + words[1] + " has two buffers");
   } else if (key == "pass") {
     need(words, 3, 4, "pass NAME ITEMS, or pass NAME ITEMS FIRST..LAST");
     ShaderSource::Pass pass{words[1], formula(words[2]), {}};
@@ -228,9 +231,18 @@ std::int64_t Formula::value(const MeshCounts& counts) const {
   return Parser(text_, counts).whole();
 }
 
-ShaderSource read_shader(const std::string& file) {
+lc_scheme ShaderSource::one_scheme() const {
+  if (schemes == LC_DOES_LOOP) return LC_SCHEME_LOOP;
+  if (schemes == LC_DOES_CATMULL_CLARK) return LC_SCHEME_CATMULL_CLARK;
+  refuse(file +
+         ": a module of Vulkan does one scheme: write #pragma limitcheck scheme loop, or catmull-clark");
+}
+
+ShaderSource read_shader(const std::string& named) {
   ShaderSource source;
-  source.file = file;
+  source.file = named;
+  source.spirv = named.ends_with(".spv");
+  const std::string file = named + (source.spirv ? ".pragmas" : "");
   std::string content;
   try {
     content = data::io::whole_content(file);
@@ -261,11 +273,14 @@ ShaderSource read_shader(const std::string& file) {
       refuse(file + ": it has passes, and no #pragma limitcheck output VERTICES TRIANGLES");
   } else if (!source.buffers.empty() || !source.output.empty()) {
     refuse(file + ": it has a buffer or an output, and no #pragma limitcheck pass");
-  } else if (source.text.find("lc_evaluate") == std::string::npos) {
+  } else if (!source.spirv && source.text.find("lc_evaluate") == std::string::npos) {
     refuse(file +
            ": it has neither a function lc_evaluate nor a #pragma limitcheck pass or tessellate: see "
            "verify/subject/SHADERS.md");
   }
+  if (source.spirv) (void)source.one_scheme();
+  if (source.spirv && source.form == Form::kTessellation)
+    refuse(file + ": tessellation shaders are audited by OpenGL alone, as GLSL");
   return source;
 }
 

@@ -46,6 +46,7 @@ struct ShaderSource {
   };
 
   std::string file, text;  // without its #version
+  bool spirv = false;      // a module; text is that of its pragmas
   Form form = Form::kFunction;
   std::int32_t schemes = LC_DOES_LOOP | LC_DOES_CATMULL_CLARK;
   std::int32_t sharp = 0;  // LC_SHARP_...
@@ -57,8 +58,12 @@ struct ShaderSource {
   std::vector<Buffer> buffers;
   std::vector<Pass> passes;
   std::vector<Formula> output;  // vertices, triangles
+
+  /// Throws SubjectError(LC_INVALID_INPUT) if it does both.
+  lc_scheme one_scheme() const;
 };
 
+/// A file of GLSL; or what the pragmas in FILE.spv.pragmas say of a module FILE.spv.
 /// Throws SubjectError(LC_INVALID_INPUT), with the file and its line: it cannot be read, or a pragma means nothing.
 ShaderSource read_shader(const std::string& file);
 

@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <exception>
-#include <functional>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "data/generators/named_mesh.h"
 #include "data/generators/star_meshes.h"
@@ -151,9 +152,11 @@ std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>
 }
 
 bool is_looked_at_beside_all(const AuditSubject& subject, bool on_a_device, const AuditMesh& mesh) {
-  static const std::set<std::string, std::less<>> for_devices{
-      "icosahedron", "sheet", "torus", "quad-cube", "quad-torus:4:3", "creased-cube"};
-  if (on_a_device) return for_devices.contains(mesh.name);
+  // Both schemes with relations, a boundary and sharp edges, and quads at a great depth.
+  static const std::set<std::pair<std::string_view, int>> for_devices{
+      {"icosahedron", 2}, {"icosahedron", 4},    {"sheet", 2},       {"sheet", 4},
+      {"quad-cube", 5},   {"quad-torus:4:3", 2}, {"creased-cube", 2}};
+  if (on_a_device) return for_devices.contains({mesh.name, mesh.depth});
   return subject.options.empty() || mesh.mesh.faces.size() <= kMostFacesUnderOptions;
 }
 

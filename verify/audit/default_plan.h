@@ -21,7 +21,7 @@ std::vector<AuditMesh> default_plan(Level level);
 
 constexpr std::size_t kMostFacesUnderOptions = 1000;
 
-/// Whether a subject looks at a mesh of the plan where all subjects are audited. One on a device looks at six small ones:
+/// Whether a subject looks at a mesh of the plan where all subjects are audited. One on a device looks at five small ones:
 /// a driver without a graphics card takes minutes for what a processor does in seconds. One under options, which is there
 /// without them, too, looks at none of more than kMostFacesUnderOptions faces: they would take half of the time.
 bool is_looked_at_beside_all(const AuditSubject& subject, bool on_a_device, const AuditMesh& mesh);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
@@ -77,16 +78,22 @@ TEST(DefaultPlan, ItsCasesAreValidTypeableAndAreAskedForOnce) {
 }
 
 TEST(DefaultPlan, IsShorterOnDevicesAndUnderOptionsWhereAllSubjectsAreAudited) {
-  std::set<std::string> on_a_device;
-  std::size_t large = 0;
+  std::size_t large = 0, on_a_device = 0;
+  std::set<std::tuple<data::Scheme, bool, bool>> kinds;  // with sharp edges, with relations
   for (const AuditMesh& m : default_plan(Level::kStandard)) {
     EXPECT_TRUE(is_looked_at_beside_all({nullptr, ""}, false, m)) << m.name;
     EXPECT_EQ(is_looked_at_beside_all({nullptr, "level=4"}, false, m), m.mesh.faces.size() <= 1000) << m.name;
     large += m.mesh.faces.size() > 1000;
-    if (is_looked_at_beside_all({nullptr, ""}, true, m)) on_a_device.insert(m.name);
+    if (!is_looked_at_beside_all({nullptr, ""}, true, m)) continue;
+    ++on_a_device;
+    kinds.emplace(m.scheme(), !m.mesh.sharpness.empty(), m.relations);
   }
   EXPECT_GT(large, 10U);
-  EXPECT_EQ(on_a_device.size(), 6U) << "a mesh for devices is no longer in the plan";
+  EXPECT_EQ(on_a_device, 7U) << "a mesh for devices is no longer in the plan";
+  using data::Scheme;
+  EXPECT_TRUE(kinds.contains({Scheme::kLoop, false, true}));
+  EXPECT_TRUE(kinds.contains({Scheme::kCatmullClark, false, false}));
+  EXPECT_TRUE(kinds.contains({Scheme::kCatmullClark, true, true}));
 }
 
 TEST(DefaultPlan, ItsRandomFrameHasCulledFacesAndEveryDepthAndItsViewMoreThanOne) {

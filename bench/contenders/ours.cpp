@@ -33,7 +33,9 @@ struct Pairs {
   Pairs(const data::ControlMesh& control, int depth, const Kernel& kernel)
       : adjacency(control),
         items(uniform_pairs(control, adjacency, depth)),
-        stream(control, adjacency, kernel) {}
+        stream(control, adjacency, kernel) {
+    items = stream.sorted(items);
+  }
   /// A batch is as many pairs as the kernel has lanes: pieces are whole batches.
   std::size_t piece() const { return static_cast<std::size_t>(stream.kernel().lanes); }
 

@@ -47,10 +47,15 @@ vec3 unit_normal(vec3 a, vec3 b) {
   return mix(n, vec3(0.0), equal(n, vec3(0.0)));  // zeros have no sign
 }
 
-// Half the sum of two points, with few enough digits that moving there and back costs hardly any.
+// Half the sum of two points, with few enough digits that moving there and back costs hardly any; 0 where what is given
+// says that this part has no origin of its own.
+const int kInside = 5, kParts = 6;  // Part
 vec3 middle(vec3 p, vec3 q) {
   precise vec3 m = (0.5 * (p + q) + 3072.0) - 3072.0;
   return m;
+}
+vec3 middle(int own, vec3 p, vec3 q) {
+  return given[own] == 0.0 ? vec3(0.0) : middle(p, q);
 }
 
 // A row on its way out: staged, so that neighbouring lanes write neighbouring numbers.

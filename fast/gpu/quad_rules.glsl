@@ -17,6 +17,7 @@ bool is_polynomial(int at, int side) { return flag(at, some_polynomial, side, 4 
 float dart_number(int at, int corner, int k) {
   return given[(4 * kBlock + 8 + corner * (1 + 3 * depth) + k) * given_stride + at];
 }
+int own(int at, int part) { return (4 * kBlock + 8 + 4 * (1 + 3 * depth) + part) * given_stride + at; }
 // Entry 0 .. 7 of a corner's ring, from e- on, as it lies in a window.
 int ring_entry(int corner, int core) {
   int whole = period[corner];

@@ -40,7 +40,7 @@ void main() {
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL
-  origin = middle(corner_point(at, p), corner_point(at, q));
+  origin = middle(own(at, p), corner_point(at, p), corner_point(at, q));
   centre = origin * control_unit + centre;
 #endif
   bool sharp_side = is_sharp(at, p), polynomial = is_polynomial(at, p);

@@ -104,7 +104,7 @@ void main() {
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL
-  origin = middle(corner_point(at, kA), corner_point(at, kC));
+  origin = middle(own(at, kInside), corner_point(at, kA), corner_point(at, kC));
   centre = origin * control_unit + centre;
 #else
   int side = lane() / 4, curve = kCurves + kCurve * side;

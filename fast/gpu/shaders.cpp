@@ -9,18 +9,18 @@ extern const char kCommon[], kTriangleRules[], kTriangleGrids[], kTriangleEdges[
     kQuadSides[], kQuadPatches[];
 }
 
-BatchUniforms BatchUniforms::of(int depth, const row_stream::KernelPlacement<float>& placement, int lanes) {
+BatchUniforms BatchUniforms::of(int depth, const Placement<float>& placement, int lanes) {
   BatchUniforms all;
   all.centre = {placement.centre[0], placement.centre[1], placement.centre[2], 0};
   all.control_unit = placement.unit;
-  all.limit_unit = row_stream::scaled(placement, depth).unit;
+  all.limit_unit = row_stream::limit_unit(placement.unit, depth);
   all.given_stride = lanes;
   all.depth = depth;
   return all;
 }
 
-BatchUniforms BatchUniforms::of(const row_stream::QuadBatch<float>& batch,
-                                const row_stream::KernelPlacement<float>& placement, int lanes, int sides) {
+BatchUniforms BatchUniforms::of(const row_stream::QuadBatch<float>& batch, const Placement<float>& placement,
+                                int lanes, int sides) {
   BatchUniforms all = of(batch.depth, placement, lanes);
   all.centre[3] = row_stream::quad_unit(placement.unit, 0);
   all.limit_unit = row_stream::quad_unit(placement.unit, batch.depth);
@@ -33,19 +33,26 @@ BatchUniforms BatchUniforms::of(const row_stream::QuadBatch<float>& batch,
 
 std::vector<EdgeEnds> edges_of_grids(int depth, int lanes) {
   using row_stream::kA, row_stream::kB, row_stream::kC, row_stream::kD;
-  constexpr std::array<EdgeEnds, 5> of_grid{
-      {{kA, 2, kD, 0}, {kB, 0, kC, 2}, {kA, 1, kC, 1}, {kD, 1, kC, 0}, {kA, 0, kB, 1}}};
+  using row_stream::kAB, row_stream::kBC, row_stream::kCD, row_stream::kDA, row_stream::kAC;
+  constexpr std::array<EdgeEnds, 5> of_grid{{{kA, 2, kD, 0, kDA},
+                                             {kB, 0, kC, 2, kBC},
+                                             {kA, 1, kC, 1, kAC},
+                                             {kD, 1, kC, 0, kCD},
+                                             {kA, 0, kB, 1, kAB}}};
   std::vector<EdgeEnds> all;
-  const int block = row_stream::corner_block_size(depth) * lanes;
+  const int block = row_stream::corner_block_size(depth) * lanes, parts = row_stream::parts_offset(depth);
   for (int grid = 0; grid < lanes; ++grid)
     for (const EdgeEnds& e : of_grid)
-      all.push_back({e.p * block + grid, e.p_first, e.q * block + grid, e.q_first});
+      all.push_back(
+          {e.p * block + grid, e.p_first, e.q * block + grid, e.q_first, (parts + e.own) * lanes + grid});
   return all;
 }
 
 std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes) {
   std::vector<EdgeEnds> all;
-  for (int e = 0; e < lanes; ++e) all.push_back({e, 0, row_stream::edge_block_size(depth) * lanes + e, 0});
+  for (int e = 0; e < lanes; ++e)
+    all.push_back({e, 0, row_stream::edge_block_size(depth) * lanes + e, 0,
+                   row_stream::edge_part_offset(depth) * lanes + e});
   return all;
 }
 

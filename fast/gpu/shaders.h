@@ -71,14 +71,15 @@ struct alignas(16) BatchUniforms {
   std::uint32_t open = 0, darts = 0, sharp = 0, some_polynomial = 0;
   std::int32_t depth = 0;
 
-  static BatchUniforms of(int depth, const row_stream::KernelPlacement<float>& placement, int lanes);
-  static BatchUniforms of(const row_stream::QuadBatch<float>& batch,
-                          const row_stream::KernelPlacement<float>& placement, int lanes, int sides);
+  static BatchUniforms of(int depth, const Placement<float>& placement, int lanes);
+  static BatchUniforms of(const row_stream::QuadBatch<float>& batch, const Placement<float>& placement,
+                          int lanes, int sides);
 };
 
-/// A control edge: the corner blocks of its ends, and where in their windows the edge's entries begin.
+/// A control edge: the corner blocks of its ends, and where in their windows the edge's entries begin; and where it is said
+/// whether it has an origin of its own.
 struct EdgeEnds {
-  std::int32_t p, p_first, q, q_first;
+  std::int32_t p, p_first, q, q_first, own;
 };
 /// The five edges of each grid of a batch, see Stream::refine_edge; and those of a batch of edges.
 std::vector<EdgeEnds> edges_of_grids(int depth, int lanes);
@@ -86,7 +87,7 @@ std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes);
 
 /// A shader as OpenGL and Vulkan take it.
 ///   most    the largest depth that its memory is enough for
-///   local   edges and grids have origins of their own, see KernelPlacement
+///   local   edges and grids have origins of their own, see row_stream::Part
 std::string source(Shader shader, int most, bool local);
 
 }  // namespace limitcheck::fast::gpu

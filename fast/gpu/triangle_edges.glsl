@@ -2,7 +2,8 @@
 // Control edges, one for each work group: a strip of three rows along it, which needs nothing but the rings
 // of its two ends; see EdgeStream of fast/stream/kernel/stream-inl.h, whose bits these are.
 
-layout(std430, binding = 3) readonly buffer Ends { ivec4 ends[]; };  // corner block, its first entry, twice
+struct EdgeEnds { int p, p_first, q, q_first, own; };  // see shaders.h
+layout(std430, binding = 3) readonly buffer Ends { EdgeEnds ends[]; };
 
 // Memory: the windows of the ends; in their place the strip, two levels in turn; what each level takes from
 // the ends.
@@ -36,10 +37,6 @@ void make_side(int level, int i, bool up) {
   vec3 v;
   if (level == 0) {
     v = load(p);
-#if LOCAL  // the two ends know their common neighbours to a last bit each: the mean
-    precise vec3 mean = 0.5 * (load(p) + load(q));
-    v = mean;
-#endif
   } else if (i == 0 || i == size - 1) {
     v = load(i == 0 ? p : q);
   } else {
@@ -52,17 +49,16 @@ void make_side(int level, int i, bool up) {
 }
 
 void main() {
-  ivec4 end = ends[gl_WorkGroupID.x];
+  EdgeEnds end = ends[gl_WorkGroupID.x];
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL
-  origin = middle(given_point(end.x, kCentre), given_point(end.z, kCentre));
+  origin = middle(end.own, given_point(end.p, kCentre), given_point(end.q, kCentre));
   centre = origin * control_unit + centre;
 #endif
   for (int k = lane(); k < 6; k += LANES) {
     int c = k % 3;
-    ivec2 from = k < 3 ? end.xy : end.zw;
-    refine_corner(from.x, from.y, 3, origin[c], c, k * (3 + 2 * depth), border_of(0, k / 3), 2);
+    refine_corner(k < 3 ? end.p : end.q, k < 3 ? end.p_first : end.q_first, 3, origin[c], c, k * (3 + 2 * depth), border_of(0, k / 3), 2);
   }
   barrier();
   for (int level = 0; level <= depth; ++level) {
@@ -75,7 +71,7 @@ void main() {
   for (int i = lane(); i <= N; i += LANES) {
     Vertex v;
     if (i == 0 || i == N) {
-      int block = i == 0 ? end.x : end.z;
+      int block = i == 0 ? end.p : end.q;
       v = Vertex(given_point(block, kLimit), given_point(block, kLimit + 3));
     } else {
       v = limit_rule(load(line_of(depth) + 3 * i), hexagon(depth, i), centre);

@@ -14,7 +14,7 @@ int core_width(int corner) { return 5 - corner % 2; }
 int block_of(int corner) {  // batches of given_stride grids side by side
   const int kBlock = kWindow + 3 * (5 + 2 * depth);
   int grid = int(gl_WorkGroupID.x);
-  return (4 * (grid / given_stride) + corner) * kBlock * given_stride + grid % given_stride;
+  return ((4 * kBlock + kParts) * (grid / given_stride) + corner * kBlock) * given_stride + grid % given_stride;
 }
 
 // Memory: the windows of the corners, then in their place three rows of each level, points -1 .. 2^level + 1;
@@ -113,7 +113,8 @@ void main() {
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL
-  origin = middle(given_point(block_of(kA), kCentre), given_point(block_of(kC), kCentre));
+  int own = block_of(4) + kInside * given_stride;
+  origin = middle(own, given_point(block_of(kA), kCentre), given_point(block_of(kC), kCentre));
   centre = origin * control_unit + centre;
 #endif
   for (int k = lane(); k < 12; k += LANES) {

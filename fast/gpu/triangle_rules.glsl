@@ -36,7 +36,7 @@ void refine_corner(int block, int first, int core, float origin, int c, int wind
   for (int t = 0; t < width; ++t) {
     precise float entry = given[block + (kWindow + 3 * (first + t) + c) * given_stride];
 #if LOCAL
-    entry = entry + v;
+    entry = entry - origin;
 #endif
     memory[window + t] = entry;
   }

@@ -166,7 +166,8 @@ class BasicRowStream {
 extern template class BasicRowStream<LoopStreams>;
 extern template class BasicRowStream<QuadStreams>;
 
-/// Of triangles: 256 + 12 n bytes for a vertex of valence n (a boundary: 376 + 12 n), and 24 bytes a face.
+/// Of triangles: 256 + 12 n bytes for a vertex of valence n (a boundary: 376 + 12 n), and 24 bytes a face, 29 where some
+/// triangle is low (see LocalOrigins).
 ///
 /// Grids next to a cut are evaluated one by one, by the rules of the sliding window: the kernels have ghosts
 /// beyond a border, which would give its two sides other bits.
@@ -183,6 +184,12 @@ class RowStream : public BasicRowStream<LoopStreams> {
 
   /// The mesh that it was made with, whose points have moved.
   void move_points(const TriangleMesh& mesh);
+
+  /// The depth from which some part of a grid has an origin of its own, see Part.
+  int local_from(const Grid& grid) const;
+  /// The grids in an order in which those of the same local_from() follow each other, which makes the best batches. Any
+  /// order is right.
+  std::vector<Grid> sorted(std::span<const Grid> grids) const;
 };
 
 /// Of quads, by Catmull-Clark's rules.

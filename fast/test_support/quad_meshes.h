@@ -54,6 +54,7 @@ inline std::vector<NamedMesh> closed_meshes() {
                                 {"shaken torus", shaken(data::quad_torus(6, 4), .1, 2)}};
   for (const int n : {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50})
     meshes.push_back({"trapezohedron " + std::to_string(n), shaken(trapezohedron(n), n > 12 ? .01 : .05, 3)});
+  meshes.push_back({"pinched torus", pinched(shaken(data::quad_torus(9, 6), .1, 5))});
   for (const int n : {3, 5, 8})
     meshes.push_back({"pawn " + std::to_string(n), shaken(data::pawn(n), .01, 4)});
   return meshes;
@@ -63,7 +64,8 @@ inline std::vector<NamedMesh> open_meshes() {
   std::vector<NamedMesh> meshes{{"quad", shaken(quad_sheet(1, 1), .1, 1)},
                                 {"strip", shaken(quad_sheet(1, 3), .1, 2)},
                                 {"sheet", shaken(quad_sheet(4, 5), .1, 3)},
-                                {"flat sheet", quad_sheet(3, 3)}};
+                                {"flat sheet", quad_sheet(3, 3)},
+                                {"pinched sheet", pinched(shaken(quad_sheet(6, 7), .1, 4))}};
   for (const int n : {3, 4, 5, 9, 50})
     meshes.push_back({"wheel " + std::to_string(n), data::quad_wheel(n, 5)});
   for (const int n : {1, 2, 3, 4, 5}) meshes.push_back({"fan " + std::to_string(n), data::quad_fan(n, 6)});

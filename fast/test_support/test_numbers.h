@@ -28,6 +28,7 @@ struct Form {
     return f;
   }
 
+  friend bool operator==(const Form&, const Form&) = default;
   friend Form operator+(Form a, const Form& b) {
     a.constant += b.constant;
     for (const auto& [i, w] : b.weights) a.weights[i] += w;

@@ -84,6 +84,7 @@ struct CountedNumber {
   static V fms(V a, V b, V c) { return fma(a, b, {-c.x}); }
   static V fnma(V a, V b, V c) { return fma({-a.x}, b, c); }
   static V inverse_root_seed(V x) { return ++operations, x; }
+  static V select(V chosen, V a, V b) { return chosen.x == 0 ? b : a; }
   static void scatter_vertex(const auto& /*vertex*/, const auto& /*to*/) {}
   static void scatter_couple(const auto& /*a*/, const auto& /*b*/, const auto& /*to*/) {}
   static void expect(const auto& /*to*/) {}
@@ -95,8 +96,7 @@ TEST(Sec4_Hardware, APointCostsTheSameWhateverTheDepth) {
   namespace rs = fast::row_stream;
   double before = 0;
   for (int depth = 2; depth <= fast::gpu::kMaxDepth; ++depth) {
-    rs::KernelPlacement<float> placement;
-    placement.local_from = rs::kMaxDepth + 1;
+    const rs::BatchPlacement<float> placement;
     std::vector<float> input(static_cast<std::size_t>(rs::input_size(depth))),
         work(static_cast<std::size_t>(rs::work_size(depth))),
         row(static_cast<std::size_t>(6 * ((1 << depth) + 1)));

@@ -22,7 +22,8 @@ namespace {
 namespace rs = fast::row_stream;
 using fast::gpu::BatchUniforms;
 using fast::gpu::Shader;
-using Placement = rs::KernelPlacement<float>;
+using Placement = fast::Placement<float>;
+using BatchPlacement = rs::BatchPlacement<float>;
 
 // Grids or edges of a batch, which lie side by side in what is given: as the processor's vectors have them.
 constexpr int kBatch = 4;
@@ -51,9 +52,8 @@ class Pass {
     put(GL_UNIFORM_BUFFER, 0, kUniforms, &batch, sizeof batch);
     put(GL_SHADER_STORAGE_BUFFER, 1, kGiven, given, 4 * static_cast<std::size_t>(numbers) * kBatch);
   }
-  Pass(int depth, const Placement& placement, const float* given, int numbers)
-      : Pass(depth, placement.has_local_origin(depth), BatchUniforms::of(depth, placement, kBatch), given,
-             numbers) {}
+  Pass(int depth, const BatchPlacement& placement, const float* given, int numbers)
+      : Pass(depth, placement.local, BatchUniforms::of(depth, placement, kBatch), given, numbers) {}
 
   template <class T>
   void give(Binding binding, const std::vector<T>& all) {
@@ -110,11 +110,11 @@ void deliver(std::span<const float> points, int depth, std::size_t rows, const a
   }
 }
 
-const char* run_grids(float* input, int depth, const Placement& placement, float* /*work*/,
+const char* run_grids(float* input, int depth, const BatchPlacement& placement, float* /*work*/,
                       const rs::Target<float>& target) {
   const auto points = [&] {
     Pass pass(depth, placement, input, rs::input_size(depth));
-    if (placement.has_local_origin(depth)) {
+    if (placement.local) {
       pass.give(kEnds, fast::gpu::edges_of_grids(depth, kBatch));
       pass.run(Shader::kTriangleEdges, 5 * kBatch, 1);
       std::vector<std::int32_t> edge_of(5 * kBatch);
@@ -131,7 +131,7 @@ const char* run_grids(float* input, int depth, const Placement& placement, float
   return kName;
 }
 
-void run_edges(const float* input, int depth, const Placement& placement, float* /*work*/, float* out,
+void run_edges(const float* input, int depth, const BatchPlacement& placement, float* /*work*/, float* out,
                std::ptrdiff_t lane_stride) {
   Pass pass(depth, placement, input, rs::edge_input_size(depth));
   pass.give(kEnds, fast::gpu::edges_by_themselves(depth, kBatch));
@@ -146,7 +146,7 @@ template <Shader shader>
 const char* run_quads(const rs::QuadBatch<float>& batch, const Placement& placement, float* /*work*/,
                       const rs::QuadTarget<float>& target) {
   constexpr bool patches = shader == Shader::kQuadPatches, alone = shader == Shader::kQuadSides;
-  const bool local = !patches && placement.has_local_origin(batch.depth);
+  const bool local = !patches && batch.local;
   const std::size_t rows = alone ? 1 : side(batch.depth);
   const auto points = [&] {
     Pass pass(batch.depth, local, BatchUniforms::of(batch, placement, kBatch, alone ? 1 : 4), batch.input,

@@ -124,7 +124,8 @@ void contracted_points(const data::ControlMesh& mesh, int depth, Visit&& visit) 
   for (const auto& p : placed.points) points.points.push_back({T(p[0]), T(p[1]), T(p[2]), T(p[3])});
   for (int c = 0; c < 3; ++c) points.placement.centre[c] = T(placed.placement.centre[c]);
   points.placement.unit = T(placed.placement.unit);
-  points.placement.local_from = placed.placement.local_from;
+  points.local_from = placed.local_from;
+  points.faces_local_from = placed.faces_local_from;
 
   const int size = 1 << depth, side = size + 1;
   std::vector<T> numbers(6 * grids.size() * static_cast<std::size_t>(side * side));

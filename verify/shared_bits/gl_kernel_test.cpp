@@ -56,6 +56,17 @@ TEST_F(GlKernel, HasTheBitsOfTheProcessorsKernelWithoutFusedMultiplyAdd) {
       }
 }
 
+// Where an origin is a matter of each edge, lane by lane.
+TEST_F(GlKernel, HasThemWhereSomeEdgesHaveOriginsOfTheirOwn) {
+  for (const int depth : {1, 2, 3}) {
+    Compared mesh(gl(), "stretched:4:bumpy:100", depth, std::nullopt);
+    mesh.grids();
+    mesh.edges();
+    EXPECT_EQ(mesh.differ, 0) << "depth " << depth << " of " << mesh.compared;
+    EXPECT_TRUE(mesh.local > 0 && mesh.local < mesh.items) << mesh.local << " of " << mesh.items;
+  }
+}
+
 // So the comparison above sees a fused product: what the processor ships differs.
 TEST_F(GlKernel, DiffersFromTheFusedKernel) {
   const auto mesh = data::named_mesh("bumpy:100");

@@ -38,6 +38,14 @@ TEST_F(GlQuadKernel, HasTheBitsOfTheProcessorsKernelWithoutFusedMultiplyAdd) {
       expect_equal_bits(name, depth);
 }
 
+TEST_F(GlQuadKernel, HasThemWhereSomeSidesHaveOriginsOfTheirOwn) {
+  for (const int depth : {1, 2, 3}) {
+    const ComparedQuads d(verify::engine_kernels_by_gl().quads, "stretched:4:pawn", depth, std::nullopt);
+    EXPECT_EQ(d.differ, 0) << "depth " << depth << " of " << d.compared;
+    EXPECT_TRUE(d.local > 0 && d.local < d.items) << d.local << " of " << d.items;
+  }
+}
+
 // There the processor's kernel takes the limits inside another way, unless the number forbids it.
 TEST_F(GlQuadKernel, HasThemAtGreatDepths) {
   for (const char* name : {"quad-fan:3", "creased-cube"}) expect_equal_bits(name, 5);

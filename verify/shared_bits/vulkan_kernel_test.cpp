@@ -22,7 +22,7 @@ namespace {
 using gpu::BatchUniforms;
 using gpu::Shader;
 using Bytes = std::vector<std::byte>;
-using Placement = KernelPlacement<float>;
+using BatchPlacement = row_stream::BatchPlacement<float>;
 constexpr int kTogether = 4;
 constexpr const char* kName = "vulkan";
 
@@ -62,31 +62,29 @@ Bytes run(Shader shader, bool local, const BatchUniforms& batch, std::span<const
   return buffers[2].content;
 }
 
-Bytes run_edges(int depth, const Placement& placement, std::span<const float> given,
+Bytes run_edges(int depth, const BatchPlacement& placement, std::span<const float> given,
                 std::vector<gpu::EdgeEnds> ends) {
-  return run(Shader::kTriangleEdges, placement.has_local_origin(depth),
-             BatchUniforms::of(depth, placement, kTogether), given, ends.size(), ends.size() * side(depth),
-             bytes_of(ends), {});
+  return run(Shader::kTriangleEdges, placement.local, BatchUniforms::of(depth, placement, kTogether), given,
+             ends.size(), ends.size() * side(depth), bytes_of(ends), {});
 }
 
 const Kernel kTriangles{
     kName,
     kTogether,
     false,
-    [](float* input, int depth, const Placement& placement, float*, const Target<float>& target) {
+    [](float* input, int depth, const BatchPlacement& placement, float*, const Target<float>& target) {
       const std::span<const float> given(input, static_cast<std::size_t>(input_size(depth)) * kTogether);
       std::array<std::int32_t, 5 * kTogether> edge_of;
       std::iota(edge_of.begin(), edge_of.end(), 0);
       Bytes edges;
-      if (placement.has_local_origin(depth))
-        edges = run_edges(depth, placement, given, gpu::edges_of_grids(depth, kTogether));
-      const Bytes points = run(Shader::kTriangleGrids, placement.has_local_origin(depth),
-                               BatchUniforms::of(depth, placement, kTogether), given, kTogether,
-                               kTogether * side(depth) * side(depth), std::move(edges), bytes_of(edge_of));
+      if (placement.local) edges = run_edges(depth, placement, given, gpu::edges_of_grids(depth, kTogether));
+      const Bytes points =
+          run(Shader::kTriangleGrids, placement.local, BatchUniforms::of(depth, placement, kTogether), given,
+              kTogether, kTogether * side(depth) * side(depth), std::move(edges), bytes_of(edge_of));
       std::memcpy(target.base, points.data(), points.size());  // Compared has the grids one after the other
       return kName;
     },
-    [](const float* input, int depth, const Placement& placement, float*, float* out, std::ptrdiff_t) {
+    [](const float* input, int depth, const BatchPlacement& placement, float*, float* out, std::ptrdiff_t) {
       const std::span<const float> given(input, static_cast<std::size_t>(edge_input_size(depth)) * kTogether);
       const Bytes points = run_edges(depth, placement, given, gpu::edges_by_themselves(depth, kTogether));
       std::memcpy(out, points.data(), points.size());
@@ -94,10 +92,10 @@ const Kernel kTriangles{
     nullptr};
 
 template <Shader shader>
-const char* run_quads(const QuadBatch<float>& batch, const Placement& placement, float*,
+const char* run_quads(const QuadBatch<float>& batch, const Placement<float>& placement, float*,
                       const QuadTarget<float>& target) {
   constexpr bool patches = shader == Shader::kQuadPatches, alone = shader == Shader::kQuadSides;
-  const bool local = !patches && placement.has_local_origin(batch.depth);
+  const bool local = !patches && batch.local;
   const std::size_t n = side(batch.depth), numbers = 6 * n * (alone ? 1 : n);
   const auto of = [&](int sides) { return BatchUniforms::of(batch, placement, kTogether, sides); };
   const std::span<const float> given(batch.input,

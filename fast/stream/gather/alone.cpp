@@ -7,15 +7,6 @@
 
 namespace limitcheck::fast::row_stream {
 
-GridEdges::GridEdges(const Adjacency& adjacency, const Grid& grid, Order order)
-    : from_a(order == Order::kFromA) {
-  const std::int32_t ac = 3 * grid.face0 + std::max(grid.edge0, 0), cd = Adjacency::next(ac),
-                     da = Adjacency::prev(ac);
-  const std::int32_t ca = grid.singleton() ? -1 : adjacency.twin(ac);
-  const std::int32_t ab = ca < 0 ? -1 : Adjacency::next(ca), bc = ca < 0 ? -1 : Adjacency::prev(ca);
-  of = {from_a ? ab : cd, from_a ? bc : da, from_a ? cd : ab, from_a ? da : bc, ac};
-}
-
 CutGrids::CutGrids(const TriangleMesh& mesh)
     : prepared_(mesh.adjacency(), positions_of<double>(mesh.points()), mesh.kinds()),
       on_cut_(static_cast<std::size_t>(mesh.adjacency().vertex_count())) {

@@ -23,16 +23,6 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// The control edges of a grid: half-edges along A B, B C, C D, D A; from C, along C D, D A, A B, B C; last
-/// the diagonal A C, which quads have not. -1: there is no such edge to show.
-struct GridEdges {
-  static constexpr std::size_t kCount = 5, kDiagonal = 4;
-  GridEdges(const Adjacency& adjacency, const Grid& grid, Order order);
-  GridEdges(std::int32_t quad, Order order);
-  bool from_a;
-  std::array<std::int32_t, kCount> of;
-};
-
 /// The mesh for these rules, and what is next to a cut: what the kernels make of a boundary has other bits on
 /// its other side. Keeps references to the mesh. Read-only afterwards.
 class CutGrids {
@@ -153,7 +143,7 @@ void AloneEvaluator<Mesh>::grid(const typename Mesh::Item& item, Order order, co
   mesh_.run(window_, item, depth_, order,
             [&](int j, int i, const SurfaceVertex<double>& point) { at(j, i) = rounded(point); });
   const GridEdges on = mesh_.edges(item, order);
-  for (std::size_t k = GridEdges::kCount; k-- > 0;) {  // the diagonal first: of its ends others are to decide
+  for (std::size_t k = on.of.size(); k-- > 0;) {  // the diagonal first: of its ends others are to decide
     const std::int32_t h = on.of[k];
     if (h < 0) continue;
     const auto point = [&](int t) -> Vertex& {
@@ -165,7 +155,7 @@ void AloneEvaluator<Mesh>::grid(const typename Mesh::Item& item, Order order, co
       by_kernel(h, edge_points_.data());
       for (int t = 0; t <= last; ++t) point(t) = edge_points_[static_cast<std::size_t>(t)];
     }
-    if (k == GridEdges::kDiagonal) continue;
+    if (k == kAC) continue;
     point(0) = limit(mesh_.adjacency().origin(h));
     point(last) = limit(mesh_.adjacency().target(h));
   }

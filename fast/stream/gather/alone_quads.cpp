@@ -3,12 +3,6 @@
 
 namespace limitcheck::fast::row_stream {
 
-GridEdges::GridEdges(std::int32_t quad, Order order) : from_a(order == Order::kFromA), of{} {
-  of.back() = -1;
-  for (std::int32_t k = 0; k < 4; ++k)
-    of[static_cast<std::size_t>(k)] = 4 * quad + (k + static_cast<int>(order)) % 4;
-}
-
 SemiSharpQuads::SemiSharpQuads(const QuadMesh& mesh) : prepared_(mesh, positions_of<double>(mesh)) {}
 
 // The window's rows come from its top, where its third and fourth corners are.

@@ -160,7 +160,7 @@ TYPED_TEST(Alone, SharesItsBorderPointsWithTheOthersBitByBit) {
           const GridEdges along = scheme.edges(items[g]);
           for (int t = 0; t < n; ++t) {
             const int i[] = {t, n - 1, n - 1 - t, 0, t}, j[] = {0, t, n - 1, n - 1 - t, t};
-            for (std::size_t k = 0; k < GridEdges::kCount; ++k)
+            for (std::size_t k = 0; k < along.of.size(); ++k)
               if (along.of[k] >= 0)
                 see(along.of[k], t, points[(g * n + static_cast<std::size_t>(j[k])) * n + i[k]]);
           }

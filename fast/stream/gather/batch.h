@@ -17,22 +17,44 @@
 
 namespace limitcheck::fast::row_stream {
 
-/// out[k * lanes + lane] = from[lane][k] - origin[(k % 3) * lanes + lane], k < count; origin may be null. Four numbers
-/// are readable from any pointer; the vectors of out and origin are aligned.
+/// out[k * lanes + lane] = from[lane][k], k < count. Four numbers are readable from any pointer; the vectors of out are
+/// aligned.
 template <class T>
-void to_lanes(const T* const* from, int count, const T* origin, int lanes, T* out) {
+void to_lanes(const T* const* from, int count, int lanes, T* out) {
   if constexpr (std::is_same_v<T, float>) {
-    if (lanes % 4 == 0) return float_lanes(from, count, origin, lanes, out);
+    if (lanes % 4 == 0) return float_lanes(from, count, lanes, out);
   }
-  for (int lane = 0; lane < lanes; ++lane) {
-    for (int k = 0; k < count; ++k)
-      out[k * lanes + lane] = origin ? from[lane][k] - origin[k % 3 * lanes + lane] : from[lane][k];
-  }
+  for (int lane = 0; lane < lanes; ++lane)
+    for (int k = 0; k < count; ++k) out[k * lanes + lane] = from[lane][k];
 }
 
 /// At which corner of a grid its rows and columns begin: A, or C half a turn on. The points and their bits
 /// are the same, in the opposite order.
 enum class Order : std::uint8_t { kFromA = 0, kFromC = 2 };
+
+/// The control edges of a grid, by Part: half-edges along A B, B C, C D, D A; from C, along C D, D A, A B, B C; last
+/// the diagonal A C, which quads have not. -1: there is no such edge to show.
+struct GridEdges {
+  GridEdges(const Adjacency& adjacency, const Grid& grid, Order order = Order::kFromA)
+      : from_a(order == Order::kFromA) {
+    const std::int32_t ac = 3 * grid.face0 + std::max(grid.edge0, 0), cd = Adjacency::next(ac),
+                       da = Adjacency::prev(ac);
+    const std::int32_t ca = grid.singleton() ? -1 : adjacency.twin(ac);
+    const std::int32_t ab = ca < 0 ? -1 : Adjacency::next(ca), bc = ca < 0 ? -1 : Adjacency::prev(ca);
+    of = {from_a ? ab : cd, from_a ? bc : da, from_a ? cd : ab, from_a ? da : bc, ac};
+  }
+  GridEdges(std::int32_t quad, Order order = Order::kFromA) : from_a(order == Order::kFromA) {
+    for (int k = 0; k < 4; ++k) of[k] = 4 * quad + (k + static_cast<int>(order)) % 4;
+    of[kAC] = -1;
+  }
+  bool from_a;
+  std::array<std::int32_t, kInside> of;
+};
+
+/// The depth from which some part of a grid has an origin of its own.
+inline int local_from(const LocalOrigins& local, const Grid& grid) {
+  return std::min(local.first<3>(grid.face0), local.first<3>(grid.singleton() ? grid.face0 : grid.face1));
+}
 
 namespace detail {
 
@@ -43,8 +65,7 @@ struct Corners {
   int first;
 };
 
-// Corner blocks, with windows of `width` entries. With an origin of its own a grid or edge wants differences from the
-// corner; they are exact or nearly so.
+// Corner blocks, with windows of `width` entries.
 template <class N>
 void put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int width, int depth, int lanes,
                  typename N::Scalar* out) {
@@ -56,20 +77,17 @@ void put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int wid
     head[lane] = rings.numbers() + 3 * static_cast<std::ptrdiff_t>(at.head);
     window[lane] = rings.numbers() + 3 * (static_cast<std::ptrdiff_t>(at.entry) + first);
   }
-  to_lanes<T>(head, CornerBlock::kWindow, nullptr, lanes, out);
-  const T* const origin =
-      rings.placement().has_local_origin(depth) ? out + CornerBlock::kCentre * lanes : nullptr;
+  to_lanes<T>(head, CornerBlock::kWindow, lanes, out);
   out += CornerBlock::kWindow * lanes;
-  if (rings.reaches(depth)) return to_lanes<T>(window, 3 * width, origin, lanes, out);
+  if (rings.reaches(depth)) return to_lanes<T>(window, 3 * width, lanes, out);
   const Adjacency& adjacency = rings.adjacency();
   for (int lane = 0; lane < lanes; ++lane) {  // round a closed ring, often more than once
     const std::int32_t v = adjacency.origin(corners.half_edge[lane]);
     const T* const ring = head[lane] + 3 * (BasicLoopRings<N>::kHeadPoints + BasicLoopRings<N>::kReach);
     const int n = adjacency.valence(v), start = static_cast<int>((window[lane] - ring) / 3) % n + n;
-    for (int k = 0; k < 3 * width; ++k) {
-      const T& x = adjacency.on_boundary(v) ? window[lane][k] : ring[3 * ((start + k / 3) % n) + k % 3];
-      out[k * lanes + lane] = origin ? x - origin[k % 3 * lanes + lane] : x;
-    }
+    for (int k = 0; k < 3 * width; ++k)
+      out[k * lanes + lane] =
+          adjacency.on_boundary(v) ? window[lane][k] : ring[3 * ((start + k / 3) % n) + k % 3];
   }
 }
 
@@ -82,23 +100,42 @@ void put_ghost(const BasicLoopRings<N>& rings, std::int32_t ac, int corner, int 
   const T* const p = rings.numbers() + 3 * (static_cast<std::ptrdiff_t>(rings.corner(ac).entry) - 1);
   for (int k = 0; k < 2; ++k) out[k * lanes] = T(0);
   for (int k = CornerBlock::kCentre; k < CornerBlock::kWindow + 3 * window_width(corner, depth); ++k)
-    out[k * lanes] = k >= CornerBlock::kWindow && rings.placement().has_local_origin(depth)
-                         ? T(0)
-                         : p[(k - CornerBlock::kCentre) % 3];
+    out[k * lanes] = p[(k - CornerBlock::kCentre) % 3];
+}
+
+// Which parts have origins of their own: first(lane) says from which depth on any of them, own(lane, part) whether one
+// of `count` has. Returns whether any has.
+template <class T, class First, class Own>
+bool put_parts(const LocalOrigins& local, int depth, int lanes, int count, T* out, const First& first,
+               const Own& own) {
+  if (local.none(depth)) return false;
+  if (local.all(depth)) {
+    std::fill_n(out, count * lanes, T(1));
+    return true;
+  }
+  bool some = false;
+  for (int lane = 0; lane < lanes; ++lane) some = some || depth >= first(lane);
+  for (int lane = 0; some && lane < lanes; ++lane)
+    for (int part = 0; part < count; ++part) out[part * lanes + lane] = T(own(lane, part) ? 1 : 0);
+  return some;
 }
 
 }  // namespace detail
 
 /// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
 /// grids; the lanes that remain repeat the last grid. A singleton without neighbour gets ghosts for its dummy
-/// partner.
+/// partner. Returns how the kernel is to take them.
 template <class N>
-void gather(const BasicLoopRings<N>& rings, std::span<const Grid> grids, int depth, int lanes,
-            typename N::Scalar* input, Order order = Order::kFromA) {
+BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::span<const Grid> grids,
+                                          int depth, int lanes, typename N::Scalar* input,
+                                          Order order = Order::kFromA) {
   detail::Corners corners[4] = {{{}, -2}, {{}, -1}, {{}, -1}, {{}, -1}};
   bool ghost[kMaxLanes];
+  const auto grid_of = [&](int lane) -> const Grid& {
+    return grids[std::min(static_cast<std::size_t>(lane), grids.size() - 1)];
+  };
   for (int lane = 0; lane < lanes; ++lane) {
-    const Grid& grid = grids[std::min(static_cast<std::size_t>(lane), grids.size() - 1)];
+    const Grid& grid = grid_of(lane);
     // A singleton without neighbour may be cut along any edge.
     const std::int32_t ac = 3 * grid.face0 + std::max(grid.edge0, 0), da = Adjacency::prev(ac),
                        ca = grid.singleton() ? rings.adjacency().twin(ac) : 3 * grid.face1 + grid.edge1;
@@ -117,21 +154,38 @@ void gather(const BasicLoopRings<N>& rings, std::span<const Grid> grids, int dep
     if (ghost[lane])
       detail::put_ghost(rings, corners[kA].half_edge[lane], kB, depth, lanes, block(kB) + lane);
   }
+  const LocalOrigins& local = rings.local();
+  const auto own = [&](int lane, int part) {
+    const Grid& grid = grid_of(lane);
+    const auto face = [&](std::int32_t f) { return f >= 0 && depth >= local.of_face<3>(f); };
+    if (part == kInside) return face(grid.face0) || face(grid.face1);
+    const std::int32_t h = GridEdges(rings.adjacency(), grid, order).of[part];
+    return h >= 0 && depth >= local.of_edge<3>(h);
+  };
+  return {rings.placement(), detail::put_parts(
+                                 local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
+                                 [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
 }
 
 /// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
 /// lanes numbers.
 template <class N>
-void gather_edges(const BasicLoopRings<N>& rings, std::span<const std::int32_t> half_edges, int depth,
-                  int lanes, typename N::Scalar* input) {
+BatchPlacement<typename N::Scalar> gather_edges(const BasicLoopRings<N>& rings,
+                                                std::span<const std::int32_t> half_edges, int depth,
+                                                int lanes, typename N::Scalar* input) {
   detail::Corners p{{}, -1}, q{{}, 0};  // Q's ring: from the left neighbour, which comes before P
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::int32_t h = half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
-    p.half_edge[lane] = h, q.half_edge[lane] = Adjacency::next(h);
-  }
+  const auto half_edge = [&](int lane) {
+    return half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
+  };
+  for (int lane = 0; lane < lanes; ++lane)
+    p.half_edge[lane] = half_edge(lane), q.half_edge[lane] = Adjacency::next(half_edge(lane));
   const int width = edge_window_width(depth);
   detail::put_corners(rings, p, width, depth, lanes, input);
   detail::put_corners(rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
+  const auto from = [&](int lane) { return rings.local().template of_edge<3>(half_edge(lane)); };
+  return {rings.placement(),
+          detail::put_parts(rings.local(), depth, lanes, 1, input + edge_part_offset(depth) * lanes, from,
+                            [&](int lane, int) { return depth >= from(lane); })};
 }
 
 namespace detail {
@@ -149,14 +203,14 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
     open = open || corner[lane]->open;
     if (corner[lane]->entries != period) period = 0;
   }
-  to_lanes<T>(from, Block::kHead, nullptr, lanes, block);
+  to_lanes<T>(from, Block::kHead, lanes, block);
 
   const int width = quad_window_width(depth);
   if (open || period > width) period = 0;
   T* out = block + Block::kWindow * lanes;
   if (period > 0) {
     for (int lane = 0; lane < lanes; ++lane) from[lane] = rings.numbers() + corner[lane]->before;
-    to_lanes<T>(from, 3 * period, nullptr, lanes, out);
+    to_lanes<T>(from, 3 * period, lanes, out);
     return false;
   }
 
@@ -187,7 +241,7 @@ bool put_corner(const BasicQuadRings<T>& rings, const typename BasicQuadRings<T>
       block[Block::kEnds * lanes + lane] = block[(Block::kEnds + 1) * lanes + lane] = T(-1);
     }
   }
-  to_lanes<T>(from, 3 * width, nullptr, lanes, out);
+  to_lanes<T>(from, 3 * width, lanes, out);
   return open;
 }
 
@@ -231,19 +285,37 @@ QuadBatch<T> gather_corners(const BasicQuadRings<T>& rings, int count, const Hal
                             std::size_t size, int depth, int lanes, T* input) {
   QuadBatch<T> batch{input, depth, {}};
   const typename BasicQuadRings<T>::Corner* corner[kMaxLanes] = {};
+  const auto at = [&](int lane, int k) {
+    return half_edge(k, std::min(static_cast<std::size_t>(lane), size - 1));
+  };
   for (int k = 0; k < count; ++k) {
-    for (int lane = 0; lane < lanes; ++lane)
-      corner[lane] = &rings.corner(half_edge(k, std::min(static_cast<std::size_t>(lane), size - 1)));
+    for (int lane = 0; lane < lanes; ++lane) corner[lane] = &rings.corner(at(lane, k));
     const bool open =
         put_corner(rings, corner, depth, lanes, input + k * quad_block_size(depth) * lanes, batch.period[k]);
     batch.open |= static_cast<unsigned>(open) << k;
     if (open) put_darts(rings, corner, k, lanes, batch);
     put_side(corner, k, lanes, batch);
   }
+  const LocalOrigins& local = rings.local();
+  batch.local = put_parts(
+      local, depth, lanes, kParts, input + quad_parts_offset(depth) * lanes,
+      [&](int lane) { return local.first<4>(at(lane, 0) / 4); },
+      [&](int lane, int part) {
+        if (part == kInside) return depth >= local.of_face<4>(at(lane, 0) / 4);
+        return part < count && depth >= local.of_edge<4>(at(lane, part));
+      });
   return batch;
 }
 
 }  // namespace detail
+
+/// The same batch with origins of their own for all of its parts, or for none, whatever its rings say.
+template <class T>
+QuadBatch<T> with_origins(QuadBatch<T> batch, bool local, int lanes) {
+  batch.local = local;
+  if (local) std::fill_n(batch.input + quad_parts_offset(batch.depth) * lanes, kParts * lanes, T(1));
+  return batch;
+}
 
 /// Fills quad_input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to
 /// `lanes` quads for QuadStream; the lanes that remain repeat the last.
@@ -290,17 +362,17 @@ QuadBatch<T> gather_patches(const BasicQuadRings<T>& rings, std::span<const std:
   for (const Run& run : runs) {
     for (int lane = 0; lane < lanes; ++lane)
       from[lane] = rings.numbers() + rings.corner(half_edge(lane, run.corner)).before + 3 * run.first;
-    to_lanes<T>(from, 3 * run.count, nullptr, lanes, entries);
+    to_lanes<T>(from, 3 * run.count, lanes, entries);
     for (int k = 0; k < run.count; ++k) put(entries + 3 * k * lanes, run.at[k]);
   }
   for (int corner = 0; corner < 4; ++corner) {
     for (int lane = 0; lane < lanes; ++lane)
       from[lane] = rings.head(rings.corner(half_edge(lane, corner)).vertex) + QuadCornerBlock::kLimit;
-    to_lanes<T>(from, 6, nullptr, lanes, input + (kPatchLimits + 6 * corner) * lanes);
+    to_lanes<T>(from, 6, lanes, input + (kPatchLimits + 6 * corner) * lanes);
   }
   for (int lane = 0; lane < lanes; ++lane)
     from[lane] = rings.head(rings.corner(half_edge(lane, 0)).vertex) + QuadCornerBlock::kCentre;
-  to_lanes<T>(from, 3, nullptr, lanes, entries);
+  to_lanes<T>(from, 3, lanes, entries);
   put(entries, 5);
   return {input, depth, {}};
 }

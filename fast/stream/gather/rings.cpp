@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <utility>
 
 #include "fast/mesh/vec3.h"
 #include "fast/stream/gather/rings_impl.h"
@@ -14,40 +14,46 @@ namespace limitcheck::fast::row_stream {
 namespace {
 
 // Seen from an origin common to the mesh, normals at depth d lose 2^d s / h roundings or more, where s is the
-// size of the mesh and h the height of a triangle. So many are let pass before depth 4: not a power of two,
-// for meshes in which s / h is one, where rounding would decide differently for each way to write them.
-constexpr double kMostRoundings = 1023;
-// Meshes of so many vertices have low triangles anyway, and origins of their own cost 40 to 60 % of the time at
-// the least depths. So they have them only if there are needles: triangles lower than this beside the mesh.
-constexpr std::size_t kManyVertices = 8192;
-constexpr double kNeedle = 0x1p-11;
-
-// The square of the height of the triangle between e and f over the longest of these and `third`, if that is
-// less than `least`. 0 is none: a flat triangle has no normal to lose.
-double lesser_squared_height(const Vec3<double>& e, const Vec3<double>& f, double third, double least) {
-  const Vec3<double> c = cross(e, f);
-  const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), third});
-  return area > 0 && area < least * longest ? area / longest : least;
+// size of the mesh and h the height of a triangle. So many are let pass before depth 4, and in meshes of many vertices,
+// where most triangles are low and origins of their own cost 20 to 30 % of the time, more. No powers of two, for meshes
+// in which s / h is one, where rounding would decide differently for each way to write them.
+constexpr double most_roundings(std::size_t vertices) {
+  return vertices < 8192 ? 1023 : 8185;
 }
 
-// A value for KernelPlacement::local_from.
-//   least   the square of the least height that is not 0; infinity if there is none. It must not depend on how
-//           the mesh is written down, or its bits would.
-int local_origins_from(std::span<const std::array<double, 3>> positions, double least) {
-  if (positions.empty()) return kLocalFrom;
-  const double size = Box(positions).size();
-  const auto lower_than = [&](double share) { return least < share * share * size * size; };
-  if (positions.size() >= kManyVertices) return lower_than(kNeedle) ? 1 : kLocalFrom;
-  int depth = 1;
-  while (depth < kLocalFrom && !lower_than((1 << depth) / kMostRoundings)) ++depth;
-  return depth;
-}
+// From which depth on faces have origins of their own, by their lowest triangle. It must not depend on how the
+// mesh is written down, or its bits would.
+class LowTriangles {
+ public:
+  LowTriangles(std::span<const std::array<double, 3>> positions, std::size_t faces) : faces_(faces) {
+    const double size = positions.empty() ? 0 : Box(positions).size();
+    for (int depth = 1; depth < kLocalFrom; ++depth) {
+      const double height = size * ((1 << depth) / most_roundings(positions.size()));
+      squared_height_[depth] = height * height;
+    }
+  }
+  /// The triangle of a face between e and f, over the longest of these and one of the squared length `third`. A flat
+  /// one has no normal to lose.
+  void see(std::size_t face, const Vec3<double>& e, const Vec3<double>& f, double third) {
+    const Vec3<double> c = cross(e, f);
+    const double area = dot(c, c), longest = std::max({dot(e, e), dot(f, f), third});
+    if (!(area > 0 && area < squared_height_[kLocalFrom - 1] * longest)) return;
+    if (from.empty()) from.assign(faces_, kLocalFrom);
+    for (std::uint8_t depth = 1; depth < from[face]; ++depth)
+      if (area < squared_height_[depth] * longest) from[face] = depth;
+  }
+  std::vector<std::uint8_t> from;  // empty: no triangle is low
+
+ private:
+  std::array<double, kLocalFrom> squared_height_{};
+  std::size_t faces_;
+};
 
 }  // namespace
 
 template <class T>
 PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions) {
-  PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
+  PlacedPoints<T> placed{{}, Placement<T>{}};
   if (positions.empty()) return placed;
   const Box box(positions);
   const double extent = box.size();
@@ -64,23 +70,23 @@ PlacedPoints<T> place_points(std::span<const std::array<double, 3>> positions) {
                              static_cast<T>((p[1] - centre[1]) * inverse),
                              static_cast<T>((p[2] - centre[2]) * inverse), T(0)});
   }
-  placed.placement = {{{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
-                       static_cast<T>(unit)},
-                      kLocalFrom};
+  placed.placement = {{static_cast<T>(centre[0]), static_cast<T>(centre[1]), static_cast<T>(centre[2])},
+                      static_cast<T>(unit)};
   return placed;
 }
 
 template <class T>
 PlacedPoints<T> place(const data::ControlMesh& mesh) {
   PlacedPoints<T> placed = place_points<T>(mesh.positions);
-  double least = std::numeric_limits<double>::infinity();
+  LowTriangles low(mesh.positions, mesh.faces.size());
+  std::size_t face = 0;
   for (const auto& t : triangles_of(mesh)) {
     const auto &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
     const Vec3<double> e{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, f{r[0] - p[0], r[1] - p[1], r[2] - p[2]},
         g = f - e;
-    least = lesser_squared_height(e, f, dot(g, g), least);
+    low.see(face++, e, f, dot(g, g));
   }
-  placed.placement.local_from = local_origins_from(mesh.positions, least);
+  placed.faces_local_from = std::move(low.from);
   return placed;
 }
 
@@ -95,7 +101,7 @@ template <class T>
 PlacedPoints<T> place(const QuadMesh& mesh) {
   PlacedPoints<T> placed = place_points<T>(mesh.positions);
   const QuadAdjacency& adjacency = mesh.adjacency;
-  double least = std::numeric_limits<double>::infinity();
+  LowTriangles low(mesh.positions, static_cast<std::size_t>(adjacency.face_count()));
   for (std::int32_t f = 0; f < adjacency.face_count(); ++f) {
     std::array<Vec3<double>, 4> side;
     for (int k = 0; k < 4; ++k) {
@@ -104,9 +110,9 @@ PlacedPoints<T> place(const QuadMesh& mesh) {
       side[k] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
     }
     // At every corner: which is the first is a matter of writing.
-    for (std::size_t k = 0; k < 4; ++k) least = lesser_squared_height(side[k], side[(k + 1) % 4], 0, least);
+    for (std::size_t k = 0; k < 4; ++k) low.see(static_cast<std::size_t>(f), side[k], side[(k + 1) % 4], 0);
   }
-  placed.placement.local_from = local_origins_from(mesh.positions, least);
+  placed.faces_local_from = std::move(low.from);
   return placed;
 }
 

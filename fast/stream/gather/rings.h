@@ -3,10 +3,13 @@
 // depend on the grid or quad.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "data/control_mesh.h"
@@ -23,6 +26,12 @@ class OwnQuadStar;
 
 namespace limitcheck::fast::row_stream {
 
+/// Whether parts of a depth have origins of their own, see Part: true, false, or both where it depends on the mesh.
+inline std::vector<bool> origins_at(int depth) {
+  if (depth == 0 || depth >= kLocalFrom) return {depth > 0};
+  return {false, true};
+}
+
 /// x y z 0
 template <class T>
 using ControlPoint = std::array<T, 4>;
@@ -31,7 +40,60 @@ using ControlPoint = std::array<T, 4>;
 template <class T>
 struct PlacedPoints {
   std::vector<ControlPoint<T>> points;
-  KernelPlacement<T> placement;
+  Placement<T> placement;
+  int local_from = kLocalFrom;  // depth from which every part has an origin of its own: 1 at least
+  std::vector<std::uint8_t> faces_local_from;  // sooner, per face; or empty
+};
+
+/// From which depth on faces and control edges have origins of their own, see Part. An edge asks the faces on both of
+/// its sides: so these agree.
+class LocalOrigins {
+ public:
+  LocalOrigins() = default;
+  /// K corners to a face. across(h): the face on the other side of a half-edge, or -1.
+  template <int K, class T, class Across>
+  static LocalOrigins of(const PlacedPoints<T>& placed, Across&& across) {
+    LocalOrigins all;
+    all.least_ = all.all_ = placed.local_from;
+    const auto& faces = placed.faces_local_from;
+    all.from_.reserve((K + 2) * faces.size());
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces.size()); ++f) {
+      const std::size_t at = all.from_.size();
+      all.from_.insert(all.from_.end(), {faces[f], faces[f]});
+      for (std::int32_t h = K * f; h < K * (f + 1); ++h) {
+        const std::int32_t other = across(h);
+        all.from_.push_back(other < 0 ? faces[f] : std::min(faces[f], faces[other]));
+        all.from_[at] = std::min(all.from_[at], all.from_.back());
+      }
+      all.least_ = std::min<int>(all.least_, all.from_[at]);
+    }
+    return all;
+  }
+
+  bool none(int depth) const { return depth < least_; }
+  bool all(int depth) const { return depth >= all_; }
+  /// Of face f, of its edge k, and of whatever of these is the first.
+  template <int K>
+  int of_face(std::int32_t f) const {
+    return at<K>(f, 1);
+  }
+  template <int K>
+  int of_edge(std::int32_t h) const {
+    return at<K>(h / K, 2 + h % K);
+  }
+  template <int K>
+  int first(std::int32_t f) const {
+    return at<K>(f, 0);
+  }
+
+ private:
+  template <int K>
+  int at(std::int32_t f, int k) const {
+    return from_.empty() ? all_ : from_[static_cast<std::size_t>((K + 2) * f + k)];
+  }
+
+  int least_ = kLocalFrom, all_ = kLocalFrom;
+  std::vector<std::uint8_t> from_;  // of each face: what is first, itself, its edges; or empty
 };
 
 /// A mesh of size 1 about the origin, T float or double. The centre is one for the whole mesh, or shared
@@ -97,7 +159,8 @@ class BasicLoopRings {
   };
   const Corner& corner(std::int32_t h) const { return corners_[h]; }
 
-  const KernelPlacement<T>& placement() const { return placement_; }
+  const Placement<T>& placement() const { return placement_; }
+  const LocalOrigins& local() const { return local_; }
   /// The number of vertices whose two limit tangents are parallel or vanish. [D12]
   std::int64_t degenerate_normals() const { return degenerate_normals_; }
 
@@ -122,7 +185,8 @@ class BasicLoopRings {
   std::vector<T> numbers_;
   std::vector<std::int32_t> heads_;  // per vertex, in points
   std::vector<Corner> corners_;      // per half-edge
-  KernelPlacement<T> placement_;
+  Placement<T> placement_;
+  LocalOrigins local_;
   RingWeightTable<Weight> weights_;
   DartWeightTable<Weight> darts_;
   std::int64_t degenerate_normals_ = 0;
@@ -194,7 +258,8 @@ class BasicQuadRings {
   const DartMoves* dart(std::int32_t v) const { return darts_.empty() ? nullptr : darts_[v].get(); }
   QuadClass kind(std::int32_t face) const { return kinds_[face]; }
 
-  const KernelPlacement<T>& placement() const { return placement_; }
+  const Placement<T>& placement() const { return placement_; }
+  const LocalOrigins& local() const { return local_; }
   /// The number of vertices whose two limit tangents are parallel or vanish. [D12]
   std::int64_t degenerate_normals() const { return degenerate_normals_; }
 
@@ -212,7 +277,8 @@ class BasicQuadRings {
   std::vector<Corner> corners_;
   std::vector<QuadClass> kinds_;
   std::vector<std::unique_ptr<DartMoves>> darts_;  // per vertex, or empty
-  KernelPlacement<T> placement_;
+  Placement<T> placement_;
+  LocalOrigins local_;
   int tangent_;
   std::int64_t degenerate_normals_ = 0;
 };

@@ -57,6 +57,9 @@ void BasicLoopRings<N>::move_points(PlacedPoints<T> points) {
                               std::to_string(adjacency.vertex_count()) + " vertices");
   }
   placement_ = points.placement;
+  local_ = LocalOrigins::of<3>(points, [&](std::int32_t h) {
+    return adjacency.twin(h) < 0 ? -1 : Adjacency::face(adjacency.twin(h));
+  });
   degenerate_normals_ = 0;
   const auto most = static_cast<std::size_t>(adjacency.max_valence());
   Scratch scratch{
@@ -225,7 +228,9 @@ struct BasicQuadRings<T>::Scratch {
 
 template <class T>
 BasicQuadRings<T>::BasicQuadRings(const QuadMesh& mesh, PlacedPoints<T> placed, int tangent)
-    : placement_(placed.placement), tangent_(tangent) {
+    : placement_(placed.placement),
+      local_(LocalOrigins::of<4>(placed, [&](std::int32_t h) { return mesh.across(h); })),
+      tangent_(tangent) {
   if (placed.points.size() != static_cast<std::size_t>(mesh.adjacency.vertex_count()))
     throw data::ArgumentError("row streaming: not one point per vertex");
   lay_out(mesh.adjacency);

@@ -56,9 +56,9 @@ class NumberStream {
     std::vector<T> input(static_cast<std::size_t>(input_size(depth))),
         work(static_cast<std::size_t>(work_size(depth)));
     for (std::size_t p = 0; p < grids.size(); ++p, out += 6 * side * side) {
-      gather(rings_, grids.subspan(p, 1), depth, 1, input.data());
+      const auto placement = gather(rings_, grids.subspan(p, 1), depth, 1, input.data());
       const Target<T> target{out, 0, 6 * side, nullptr, nullptr};
-      generic::Stream<N>(input.data(), depth, rings_.placement(), work.data(), {target}).run();
+      generic::Stream<N>(input.data(), depth, placement, work.data(), {target}).run();
     }
   }
 
@@ -68,10 +68,11 @@ class NumberStream {
     check(depth);
     std::vector<T> input(static_cast<std::size_t>(edge_input_size(depth))),
         work(static_cast<std::size_t>(edge_work_size(depth)));
-    generic::EdgeStream<N> strip(depth, rings_.placement(), work.data());
     for (std::size_t e = 0; e < half_edges.size(); ++e, out += edge_output_size(depth)) {
-      gather_edges(rings_, half_edges.subspan(e, 1), depth, 1, input.data());
-      strip.scatter(input.data(), 0, input.data() + edge_block_size(depth), 0, generic::LaneRow<N>{out, 0});
+      const auto placement = gather_edges(rings_, half_edges.subspan(e, 1), depth, 1, input.data());
+      generic::EdgeStream<N>(depth, placement, work.data())
+          .scatter(input.data(), 0, input.data() + edge_block_size(depth), 0,
+                   input.data() + edge_part_offset(depth), generic::LaneRow<N>{out, 0});
     }
   }
 
@@ -80,7 +81,7 @@ class NumberStream {
     if (depth < 0 || depth > kMaxDepth) throw data::ArgumentError("row streaming: depth is 0 to 10");
   }
   static PlacedPoints<T> as_they_are(std::span<const std::array<T, 3>> points) {
-    PlacedPoints<T> placed{{}, KernelPlacement<T>{}};
+    PlacedPoints<T> placed{{}, Placement<T>{}};
     for (const auto& p : points) placed.points.push_back({p[0], p[1], p[2], T(0)});
     return placed;
   }

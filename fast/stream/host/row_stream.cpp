@@ -131,24 +131,25 @@ struct Call<LoopStreams> : CallOf<LoopStreams> {
     for_each_part(half_edges, body);
   }
 
+  BatchPlacement<float> gathered(const Items& batch) const {
+    return gather(rings, batch.items, depth, kernel.lanes, input(), order);
+  }
   void run(const Items& batch, const QuadTarget<float>& to) const {
-    gather(rings, batch.items, depth, kernel.lanes, input(), order);
     const Target<float> target{to.lane[0], to.lane[1] - to.lane[0], to.row_stride, to.row, to.context,
                                to.row_mask};
-    kernel.run(input(), depth, rings.placement(), work(), target);
+    kernel.run(input(), depth, gathered(batch), work(), target);
   }
   void run_lines(const Items& batch, float* const* lane, Stores stores) const {
-    gather(rings, batch.items, depth, kernel.lanes, input(), order);
-    kernel.run_lines(input(), depth, rings.placement(), work(), lane, stores);
+    kernel.run_lines(input(), depth, gathered(batch), work(), lane, stores);
   }
   // Edge e to at(e); these places follow each other.
   template <class At>
   void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {
-    gather_edges(rings, half_edges, depth, kernel.lanes, input());
+    const auto placement = gather_edges(rings, half_edges, depth, kernel.lanes, input());
     // The lanes beyond the last edge write too, but not into the caller's memory.
     const bool full = half_edges.size() == static_cast<std::size_t>(kernel.lanes);
     const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
-    kernel.run_edges(input(), depth, rings.placement(), work(), full ? &at(0)->position.x : rest.base,
+    kernel.run_edges(input(), depth, placement, work(), full ? &at(0)->position.x : rest.base,
                      full ? edge_output_size(depth) : rest.pitch);
     for (std::size_t e = 0; e < half_edges.size() && !full; ++e)
       std::copy_n(rest.row(e, 0), side(depth), at(e));
@@ -379,6 +380,10 @@ RowStream::RowStream(const TriangleMesh& mesh, const Kernel& kernel)
     : BasicRowStream(kernel, LoopRings(mesh.points(), mesh.adjacency(), mesh.kinds()),
                      mesh.is_cut() ? std::make_shared<const CutGrids>(mesh) : nullptr) {}
 
+int RowStream::local_from(const Grid& grid) const {
+  return row_stream::local_from(rings_.local(), grid);
+}
+
 void RowStream::move_points(const TriangleMesh& mesh) {
   rings_.move_points(place<float>(mesh.points()));
   if (alone_) alone_ = std::make_shared<const CutGrids>(mesh);
@@ -393,11 +398,19 @@ void QuadRowStream::move_points(const QuadMesh& mesh) {
   if (alone_) alone_ = std::make_shared<const SemiSharpQuads>(mesh);
 }
 
+std::vector<Grid> RowStream::sorted(std::span<const Grid> grids) const {
+  std::vector<Grid> all(grids.begin(), grids.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Grid& a, const Grid& b) { return local_from(a) < local_from(b); });
+  return all;
+}
+
 std::vector<std::int32_t> QuadRowStream::sorted(std::span<const std::int32_t> faces) const {
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keys;  // by class and valences
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys;  // by class, origins and valences
   keys.reserve(faces.size());
   for (const std::int32_t f : faces) {
-    auto key = static_cast<std::uint64_t>(rings_.kind(f));
+    auto key = static_cast<std::uint64_t>(rings_.kind(f)) << 4 |
+               static_cast<std::uint64_t>(rings_.local().first<4>(f));
     for (int k = 0; k < 4; ++k)
       key = key << 12 | static_cast<std::uint64_t>(std::min(rings_.corner(4 * f + k).entries, 4095));
     keys.emplace_back(key, f);

@@ -162,7 +162,11 @@ struct LoopStreamFrames final
 
   template <class Skipped>
   void make_batches(std::size_t first, std::size_t last, Skipped&& skipped) {
-    sorted.sort(patches, first, last, skipped, static_cast<std::size_t>(stream.kernel().lanes),
+    const auto local = [&](std::size_t i) {
+      return !stream.rings().local().none(patches[i].depth) &&
+             patches[i].depth >= stream.local_from(pairing.grids[i]);
+    };
+    sorted.sort(patches, first, last, skipped, local, static_cast<std::size_t>(stream.kernel().lanes),
                 static_cast<std::size_t>(few_lanes.lanes), placed, batches);
   }
 

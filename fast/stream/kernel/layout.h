@@ -52,20 +52,29 @@ struct CornerBlock {
   static constexpr int kCentre = 2;        // c
   static constexpr int kDifference = 5;    // d
   static constexpr int kLimit = 8;         // limit position and unit normal, in the caller's coordinates
-  static constexpr int kWindow = 14;       // window_width entries, less c with local origins
+  static constexpr int kWindow = 14;       // window_width entries
 };
 
 /// From a depth on every control edge and every grid has an origin of its own, near it: differences of points
 /// are then formed from small numbers, and normals gain what the mesh is larger than an edge. The edges'
 /// points come from strips along them, which both faces compute alike. Below depth 4 the strips would cost
-/// more than normals need, but for meshes with low triangles: see local_origins_from.
+/// more than normals need, but for low triangles: see LocalOrigins.
 inline constexpr int kLocalFrom = 4;
+
+/// What can have an origin of its own: the sides of a grid or quad, the diagonal of a grid, and the inside. If anything
+/// in a batch has one, its input says of each part which lanes have it, by 1 or 0. An origin at 0 changes no bit: so
+/// what neither needs is the same in a batch that has none.
+enum Part { kAB = 0, kBC = 1, kCD = 2, kDA = 3, kAC = 4, kInside = 5 };
+inline constexpr int kParts = 6;
 
 constexpr int corner_block_size(int depth) {
   return CornerBlock::kWindow + 3 * window_width(kA, depth);
 }
-constexpr int input_size(int depth) {
+constexpr int parts_offset(int depth) {
   return 4 * corner_block_size(depth);
+}
+constexpr int input_size(int depth) {
+  return parts_offset(depth) + kParts;
 }
 
 /// Working memory of a kernel, in units of `lanes` numbers.
@@ -80,15 +89,18 @@ constexpr int rows_offset(int level) {
 constexpr int kBorderSize = 9;  // centre, first and last core entry
 
 /// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
-/// three.
+/// three; then whether it has an origin of its own.
 constexpr int edge_window_width(int depth) {
   return 3 + 2 * depth;
 }
 constexpr int edge_block_size(int depth) {
   return CornerBlock::kWindow + 3 * edge_window_width(depth);
 }
-constexpr int edge_input_size(int depth) {
+constexpr int edge_part_offset(int depth) {
   return 2 * edge_block_size(depth);
+}
+constexpr int edge_input_size(int depth) {
+  return edge_part_offset(depth) + 1;
 }
 constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
@@ -113,23 +125,20 @@ constexpr int work_size(int depth) {
   return strips_offset(depth) + kKeptEdges * edge_output_size(depth);
 }
 
-/// The kernel's coordinates, and from which depth on edges and grids have origins of their own.
+/// The coordinates of a batch of grids or edges, and whether some part of it has an origin of its own.
 template <class T>
-struct KernelPlacement : Placement<T> {
-  int local_from = kLocalFrom;  // 1 at least
-
-  bool has_local_origin(int depth) const { return depth >= local_from; }
+struct BatchPlacement : Placement<T> {
+  bool local = false;
 };
 
-/// The placement of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where
-/// T divides exactly.
+/// The unit of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where T
+/// divides exactly.
 template <class T>
-KernelPlacement<T> scaled(KernelPlacement<T> placement, int depth) {
+T limit_unit(T unit, int depth) {
   if constexpr (std::is_floating_point_v<T>)
-    placement.unit = static_cast<T>(std::ldexp(static_cast<double>(placement.unit) / 12, -3 * depth));
+    return static_cast<T>(std::ldexp(static_cast<double>(unit) / 12, -3 * depth));
   else
-    placement.unit = placement.unit / static_cast<T>(std::ldexp(12., 3 * depth));
-  return placement;
+    return unit / static_cast<T>(std::ldexp(12., 3 * depth));
 }
 
 inline constexpr int kEveryRow = -1;
@@ -160,8 +169,7 @@ struct Target {
 ///        A (0,0) ---- B (N,0)                e- -- f-
 ///
 /// Rows -1 and N+1, columns -1 and N+1 are the points across the border. The point diagonally beyond a corner
-/// is never read: it does not exist unless four quads meet there.
-enum QuadSide { kAB = 0, kBC = 1, kCD = 2, kDA = 3 };  // side k begins at corner k
+/// is never read: it does not exist unless four quads meet there. Side k, see Part, begins at corner k.
 
 /// Points that a level takes from the ring of each corner: c, then seven entries from e- on.
 constexpr int kQuadCore = 7;
@@ -192,7 +200,7 @@ constexpr int quad_block_size(int depth) {
 
 /// Of quads that are streamed: four corner blocks, then per side 1 where it is sharp (a boundary or one side
 /// of a cut), then per side 1 where it is a polynomial, then per corner 1 where it is a dart, and for each
-/// level from 1 on how far its centre has moved since the level before.
+/// level from 1 on how far its centre has moved since the level before; then the parts.
 constexpr int quad_sharp_offset(int depth) {
   return 4 * quad_block_size(depth);
 }
@@ -209,8 +217,11 @@ constexpr int quad_dart_offset(int depth) {
 constexpr int kPatchLimits = 48;
 constexpr int kPatchSize = kPatchLimits + 24;
 
+constexpr int quad_parts_offset(int depth) {
+  return quad_dart_offset(depth) + 4 * quad_dart_size(depth);
+}
 constexpr int quad_input_size(int depth) {
-  return std::max(quad_dart_offset(depth) + 4 * quad_dart_size(depth), kPatchSize);
+  return std::max(quad_parts_offset(depth) + kParts, kPatchSize);
 }
 
 /// A batch of quads of one depth, in a form in which the lanes differ in numbers alone. Bits: corner or
@@ -226,6 +237,7 @@ struct QuadBatch {
   unsigned darts = 0;  // corners that are darts in some lane
   unsigned sharp = 0;  // sides that are sharp in some lane
   unsigned some_polynomial = 0, all_polynomial = 0;  // sides that are polynomials in some lane, in all
+  bool local = false;                                // some part has an origin of its own
 };
 
 /// Along a side between two interior vertices of four quads the surface is a polynomial of the 12 points

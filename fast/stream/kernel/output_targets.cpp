@@ -32,14 +32,8 @@ HWY_ATTR HWY_INLINE hn::Vec<D> load_blocks(D d, const float* const* from, int fi
 }
 
 template <class D>
-HWY_ATTR HWY_INLINE void put_lanes(D d, hn::Vec<D> v, int k, const float* origin, float* out) {
-  constexpr int lanes = hn::MaxLanes(D());
-  if (origin) v = hn::Sub(v, hn::Load(d, origin + k % 3 * lanes));
-  hn::Store(v, d, out + k * lanes);
-}
-
-template <class D>
-HWY_ATTR void fill_lanes(D d, const float* const* from, int count, const float* origin, float* out) {
+HWY_ATTR void fill_lanes(D d, const float* const* from, int count, float* out) {
+  const auto put = [&](hn::Vec<D> v, int k) HWY_ATTR { hn::Store(v, d, out + k * hn::MaxLanes(D())); };
   int k = 0;
 #if HWY_TARGET == HWY_AVX3
   if constexpr (hn::MaxLanes(D()) == 16) {  // eight numbers at a time: fewer loads, a third less time
@@ -56,8 +50,8 @@ HWY_ATTR void fill_lanes(D d, const float* const* from, int count, const float* 
       LaneNumber<D>::transpose_blocks(high);
       for (int r = 0; r < 4; ++r) {
         const __m512 l = low[r].raw, h = high[r].raw;
-        put_lanes(d, hn::Vec<D>{_mm512_shuffle_f32x4(l, h, 0x88)}, first + r, origin, out);
-        put_lanes(d, hn::Vec<D>{_mm512_shuffle_f32x4(l, h, 0xdd)}, first + 4 + r, origin, out);
+        put(hn::Vec<D>{_mm512_shuffle_f32x4(l, h, 0x88)}, first + r);
+        put(hn::Vec<D>{_mm512_shuffle_f32x4(l, h, 0xdd)}, first + 4 + r);
       }
     }
   }
@@ -67,24 +61,22 @@ HWY_ATTR void fill_lanes(D d, const float* const* from, int count, const float* 
     hn::Vec<D> v[4];
     for (int r = 0; r < 4; ++r) v[r] = load_blocks(d, from + r, first);
     LaneNumber<D>::transpose_blocks(v);
-    for (int r = 0; r < 4 && first + r < count; ++r) put_lanes(d, v[r], first + r, origin, out);
+    for (int r = 0; r < 4 && first + r < count; ++r) put(v[r], first + r);
   }
 }
 
 #endif
 
 // Plainly where this target lacks the lanes: another thread may be trying it just now, see ask_every_target().
-HWY_ATTR void lanes_of_floats(const float* const* from, int count, const float* origin, int lanes,
-                              float* out) {
+HWY_ATTR void lanes_of_floats(const float* const* from, int count, int lanes, float* out) {
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
   constexpr hn::CappedTag<float, 16> sixteen;
   constexpr hn::CappedTag<float, 8> eight;
-  if (lanes == 16 && hn::MaxLanes(sixteen) == 16) return fill_lanes(sixteen, from, count, origin, out);
-  if (lanes == 8 && hn::MaxLanes(eight) == 8) return fill_lanes(eight, from, count, origin, out);
-  if (lanes == 4) return fill_lanes(hn::CappedTag<float, 4>(), from, count, origin, out);
+  if (lanes == 16 && hn::MaxLanes(sixteen) == 16) return fill_lanes(sixteen, from, count, out);
+  if (lanes == 8 && hn::MaxLanes(eight) == 8) return fill_lanes(eight, from, count, out);
+  if (lanes == 4) return fill_lanes(hn::CappedTag<float, 4>(), from, count, out);
 #endif
-  for (int i = 0; i < count * lanes; ++i)
-    out[i] = from[i % lanes][i / lanes] - (origin ? origin[i / lanes % 3 * lanes + i % lanes] : 0);
+  for (int i = 0; i < count * lanes; ++i) out[i] = from[i % lanes][i / lanes];
 }
 
 HWY_ATTR void stream_floats(const float* from, std::size_t count, float* to) {
@@ -151,8 +143,8 @@ HWY_EXPORT(lanes_of_floats);
 HWY_EXPORT(stream_floats);
 HWY_EXPORT(compact_vectors);
 
-void float_lanes(const float* const* from, int count, const float* origin, int lanes, float* out) {
-  HWY_DYNAMIC_DISPATCH(lanes_of_floats)(from, count, origin, lanes, out);
+void float_lanes(const float* const* from, int count, int lanes, float* out) {
+  HWY_DYNAMIC_DISPATCH(lanes_of_floats)(from, count, lanes, out);
 }
 
 void stream_lines(const std::byte* from, std::size_t lines, std::byte* to) {

@@ -14,9 +14,9 @@ namespace limitcheck::fast::row_stream {
 
 using fast::CompactVertex, fast::compacted, fast::kCompactNormalBound, fast::unpacked_normal;
 
-/// out[k * lanes + lane] = from[lane][k] - origin[(k % 3) * lanes + lane], k < count; origin may be null. lanes: 4, 8 or
-/// 16; out and origin are aligned to as many numbers. Four numbers are readable from any pointer.
-void float_lanes(const float* const* from, int count, const float* origin, int lanes, float* out);
+/// out[k * lanes + lane] = from[lane][k], k < count. lanes: 4, 8 or 16; out is aligned to as many numbers. Four numbers
+/// are readable from any pointer.
+void float_lanes(const float* const* from, int count, int lanes, float* out);
 
 /// `count` vertices into `out`, which holds as many: a CompactRow, with the bits of compacted() on every machine.
 void compact(const Vertex* vertices, std::size_t count, CompactVertex* out);

@@ -25,7 +25,7 @@ class QuadPatch {
   static constexpr int L = N::lanes;
 
   /// input: kPatchSize * lanes numbers, left alone; work as for QuadStream.
-  HWY_ATTR QuadPatch(const QuadBatch<Scalar>& batch, const KernelPlacement<Scalar>& placement, Scalar* work,
+  HWY_ATTR QuadPatch(const QuadBatch<Scalar>& batch, const Placement<Scalar>& placement, Scalar* work,
                      const To& target)
       : input_(batch.input),
         depth_(batch.depth),
@@ -163,7 +163,7 @@ class QuadPatch {
   const Scalar* input_;
   int depth_;
   Scalar *curves_, *power_, *row_;
-  KernelPlacement<Scalar> placement_;
+  Placement<Scalar> placement_;
   V centre_[3];
   Scalar unit_;
   To target_;

@@ -143,7 +143,7 @@ class QuadCorner {
 /// 0 is right of it, row 2 left. Half a turn gives the same points in the opposite order, with the same bits.
 template <class N>
 HWY_ATTR void make_curve(const typename N::Scalar* const (&at)[3][4],
-                         const KernelPlacement<typename N::Scalar>& placement, typename N::Scalar* curve) {
+                         const Placement<typename N::Scalar>& placement, typename N::Scalar* curve) {
   using V = typename N::V;
   constexpr int L = N::lanes;
   V origin[3];

@@ -25,7 +25,7 @@ class QuadSideLimit {
 
   /// curve: of the side, if it is a polynomial in some lane; centre: where the points' origin is in the
   /// caller's coordinates. Both are kept by pointer.
-  HWY_ATTR QuadSideLimit(const QuadBatch<Scalar>& batch, int side, const KernelPlacement<Scalar>& placement,
+  HWY_ATTR QuadSideLimit(const QuadBatch<Scalar>& batch, int side, const Placement<Scalar>& placement,
                          const Scalar* curve, const V* centre)
       : sharp_(mask(batch, quad_sharp_offset(batch.depth), batch.sharp, side)),
         polynomial_(mask(batch, quad_polynomial_offset(batch.depth), batch.some_polynomial, side)),
@@ -117,7 +117,7 @@ class QuadSideStream {
   static constexpr int L = N::lanes;
 
   /// work: quad_side_work_size(depth) * lanes.
-  HWY_ATTR QuadSideStream(const QuadBatch<Scalar>& batch, int side, const KernelPlacement<Scalar>& placement,
+  HWY_ATTR QuadSideStream(const QuadBatch<Scalar>& batch, int side, const Placement<Scalar>& placement,
                           const Scalar* curve, Scalar* work)
       : p_(batch, side),
         q_(batch, (side + 1) % 4),
@@ -126,11 +126,12 @@ class QuadSideStream {
         points_(work + 2 * kQuadBorder * batch.depth * L),
         limit_(batch, side, placement, curve, centre_) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
-    const bool local = placement.has_local_origin(depth_);
-    if (local) choose_middle<N>(p_.centre(), q_.centre(), origin);
+    if (batch.local)
+      choose_origin<N>(batch.input + (quad_parts_offset(depth_) + side) * L, p_.centre(), q_.centre(),
+                       origin);
     for (int c = 0; c < 3; ++c)
       centre_[c] = N::fma(origin[c], N::splat(placement.unit), N::splat(placement.centre[c]));
-    if (!limit_.all_polynomial() && depth_ > 0) refine(local ? origin : nullptr);
+    if (!limit_.all_polynomial() && depth_ > 0) refine(batch.local ? origin : nullptr);
   }
   QuadSideStream(const QuadSideStream&) = delete;
 

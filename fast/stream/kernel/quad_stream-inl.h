@@ -32,12 +32,11 @@ class QuadStream {
 
   /// work: quad_work_size(depth) * lanes. It and the input, which is left alone, are aligned to 64 bytes
   /// and hold finite numbers.
-  HWY_ATTR QuadStream(const QuadBatch<Scalar>& batch, const KernelPlacement<Scalar>& placement, Scalar* work,
+  HWY_ATTR QuadStream(const QuadBatch<Scalar>& batch, const Placement<Scalar>& placement, Scalar* work,
                       const To& target)
       : batch_(batch),
         depth_(batch.depth),
         fused_(batch.depth >= kFusedFrom && !requires { N::kNeverFused; }),
-        local_(placement.has_local_origin(batch.depth)),
         side_work_(work),
         border_(work + quad_border_offset(batch.depth) * L),
         curves_(work + quad_curves_offset(batch.depth) * L),
@@ -59,9 +58,9 @@ class QuadStream {
     for (int side = 0; side < 4; ++side) {
       if (batch_.some_polynomial >> side & 1) curve(side);
     }
-    if (local_) move_origin();
+    if (batch_.local) move_origin();
     for (int k = 0; k < 4; ++k)
-      corner(k).refine(local_ ? origin_ : nullptr, border(1, k), 4 * kQuadBorder * L);
+      corner(k).refine(batch_.local ? origin_ : nullptr, border(1, k), 4 * kQuadBorder * L);
     for (int j = -1; j <= 3; ++j) receive(1, j);
   }
 
@@ -95,7 +94,8 @@ class QuadStream {
       const QuadSideStream<N> stream(batch_, side, placement_, curve_of(side), side_work_);
       stream.scatter(KeptRow<N>{strip(side, 0)});
     }
-    choose_middle<N>(corner(kA).centre(), corner(kC).centre(), origin_);
+    choose_origin<N>(batch_.input + (quad_parts_offset(depth_) + kInside) * L, corner(kA).centre(),
+                     corner(kC).centre(), origin_);
     for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin_[c], N::splat(placement_.unit), centre_[c]);
   }
   // Point k of a side that has an origin of its own.
@@ -232,14 +232,14 @@ class QuadStream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    if (local_ && j == 0) return;
-    if (local_ && j == size) {
+    if (batch_.local && j == 0) return;
+    if (batch_.local && j == size) {
       last_row();
     } else if (j == 0 || j == size) {
       side_row(j == 0 ? kAB : kCD, s, m, n);
     } else {
       Vertex<N> first, last;
-      if (local_) {
+      if (batch_.local) {
         first.load(strip(kDA, size - j)), last.load(strip(kBC, j));
       } else {
         column_point(kDA, s, m, n, 0, j, first), column_point(kBC, s, m, n, size, j, last);
@@ -304,10 +304,10 @@ class QuadStream {
 
   QuadBatch<Scalar> batch_;
   int depth_;
-  bool fused_, local_;
+  bool fused_;
   Scalar *side_work_, *border_, *curves_, *strips_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
-  KernelPlacement<Scalar> placement_;
+  Placement<Scalar> placement_;
   V origin_[3], centre_[3];
   Scalar unit_;
   To target_;

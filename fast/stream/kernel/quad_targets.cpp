@@ -25,8 +25,8 @@ template <int lanes>
 using QuadLanes = LaneNumber<hn::CappedTag<float, lanes>>;
 
 template <int lanes, class Engine, void (Engine::*run)() = &Engine::run>
-HWY_ATTR const char* run_batch(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                               float* work, const QuadTarget<float>& target) {
+HWY_ATTR const char* run_batch(const QuadBatch<float>& batch, const Placement<float>& placement, float* work,
+                               const QuadTarget<float>& target) {
   Engine engine(batch, placement, work, {target});
   (engine.*run)();
   return target_name(lanes);
@@ -34,8 +34,8 @@ HWY_ATTR const char* run_batch(const QuadBatch<float>& batch, const KernelPlacem
 
 #if HWY_TARGET == HWY_AVX3
 template <template <class, class> class Engine>
-HWY_ATTR void run_in_lines(const QuadBatch<float>& batch, const KernelPlacement<float>& placement,
-                           float* work, float* const* lane, Stores stores) {
+HWY_ATTR void run_in_lines(const QuadBatch<float>& batch, const Placement<float>& placement, float* work,
+                           float* const* lane, Stores stores) {
   LineRuns<QuadLanes<16>> runs(lane, stores);
   Engine<QuadLanes<16>, LineTarget<QuadLanes<16>>>(batch, placement, work, {&runs}).run();
   runs.finish();
@@ -74,7 +74,7 @@ HWY_EXPORT(list_quad_kernels);
 using ScalarQuads = generic::QuadStream<ScalarNumber<float>>;
 
 template <class Engine, void (Engine::*run)() = &Engine::run>
-const char* run_scalar(const QuadBatch<float>& batch, const KernelPlacement<float>& placement, float* work,
+const char* run_scalar(const QuadBatch<float>& batch, const Placement<float>& placement, float* work,
                        const QuadTarget<float>& target) {
   Engine engine(batch, placement, work, {target});
   (engine.*run)();

@@ -174,7 +174,7 @@ class Stream {
 
   /// input: input_size(depth) * lanes numbers; work: work_size(depth) * lanes.
   /// Both aligned to 64 bytes; work holds finite numbers.
-  HWY_ATTR Stream(Scalar* input, int depth, const KernelPlacement<Scalar>& placement, Scalar* work,
+  HWY_ATTR Stream(Scalar* input, int depth, const BatchPlacement<Scalar>& placement, Scalar* work,
                   const To& target)
       : input_(input),
         border_(work + border_offset(depth) * L),
@@ -182,7 +182,7 @@ class Stream {
         strips_(work + strips_offset(depth) * L),
         depth_(depth),
         placement_(placement),
-        unit_(scaled(placement, depth).unit),
+        unit_(limit_unit(placement.unit, depth)),
         target_(target),
         edge_(depth, placement, strip_work_) {
     for (int level = 0; level <= depth; ++level) rows_[level] = work + (rows_offset(level) + 3) * L;
@@ -192,7 +192,7 @@ class Stream {
     for (int c = 0; c < 3; ++c) centre_[c] = N::splat(placement_.centre[c]);
     V moved[3];
     const V* origin = nullptr;
-    if (placement_.has_local_origin(depth_)) {
+    if (placement_.local) {
       move_origin(moved);
       origin = moved;
     }
@@ -204,29 +204,28 @@ class Stream {
   }
 
  private:
-  enum Edge { kAD, kBC, kAC, kDC };  // those whose points are kept
-
   Scalar* corner_block(int corner) const { return input_ + corner * corner_block_size(depth_) * L; }
-  Scalar* strip(Edge edge, int point) const {
-    return strips_ + (edge * edge_output_size(depth_) + 6 * point) * L;
+  const Scalar* own(Part part) const { return input_ + (parts_offset(depth_) + part) * L; }
+  Scalar* strip(Part edge, int point) const {
+    return strips_ + ((edge - kBC) * edge_output_size(depth_) + 6 * point) * L;
   }
 
   // The grid's edges before its inside, each a strip from an origin of its own: A B is row 0, the others are kept until
   // their rows come. p_first, q_first: the edge's window begins there, among the core entries after the flap. Then the
   // grid has an origin on its diagonal.
   HWY_ATTR void move_origin(V* origin) {
-    edge_.scatter(corner_block(kA), 0, corner_block(kB), 1, target_.row(0));
+    edge_.scatter(corner_block(kA), 0, corner_block(kB), 1, own(kAB), target_.row(0));
     target_.done(0);
-    for (const Edge edge : {kAD, kBC, kAC, kDC}) {
+    for (const Part edge : {kBC, kCD, kDA, kAC}) {
       struct Ends {
         int p, p_first, q, q_first;
       };
-      constexpr Ends ends[] = {{kA, 2, kD, 0}, {kB, 0, kC, 2}, {kA, 1, kC, 1}, {kD, 1, kC, 0}};
-      const Ends& e = ends[edge];
-      edge_.points(corner_block(e.p), e.p_first, corner_block(e.q), e.q_first, strip(edge, 0));
+      constexpr Ends ends[] = {{kB, 0, kC, 2}, {kD, 1, kC, 0}, {kA, 2, kD, 0}, {kA, 1, kC, 1}};
+      const Ends& e = ends[edge - kBC];
+      edge_.points(corner_block(e.p), e.p_first, corner_block(e.q), e.q_first, own(edge), strip(edge, 0));
     }
-    choose_middle<N>(corner_block(kA) + CornerBlock::kCentre * L, corner_block(kC) + CornerBlock::kCentre * L,
-                     origin);
+    choose_origin<N>(own(kInside), corner_block(kA) + CornerBlock::kCentre * L,
+                     corner_block(kC) + CornerBlock::kCentre * L, origin);
     for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
   }
 
@@ -235,8 +234,8 @@ class Stream {
   HWY_FLATTEN HWY_ATTR void refine_corner(int corner, const V* origin) {
     const int depth = known > 0 ? known : depth_;
     for (int c = 0; c < 3; ++c) {
-      Ring<N, known == 0 ? 0 : core + 2 * known> ring(corner_block(corner), c, 0, core + 2 * depth,
-                                                      origin != nullptr, origin, strip_work_);
+      Ring<N, known == 0 ? 0 : core + 2 * known> ring(corner_block(corner), c, 0, core + 2 * depth, origin,
+                                                      strip_work_);
       each_level<(known > 0 ? known + 1 : 0)>(depth + 1, [&](int level) HWY_ATTR {
         const int first = depth - level;
         Scalar* kept = border(level, corner) + c * L;
@@ -292,11 +291,11 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    const bool local = placement_.has_local_origin(depth_), border = j == 0 || j == size;
+    const bool local = placement_.local, border = j == 0 || j == size;
     if (local && j == 0) return;
     const auto to = target_.row(j);
     if (local && j == size) {
-      edge_.scatter_kept(corner_block(kD), corner_block(kC), strip(kDC, 0), to);
+      edge_.scatter_kept(corner_block(kD), corner_block(kC), strip(kCD, 0), to);
       return target_.done(j);
     }
     alignas(64) Scalar special[6 * L];
@@ -304,7 +303,7 @@ class Stream {
     Vertex<N> first, last;
     if (local) {
       diagonal = strip(kAC, j);
-      first.load(strip(kAD, j)), first.finish();
+      first.load(strip(kDA, j)), first.finish();
       last.load(strip(kBC, j)), last.finish();
     } else if (border) {
       first.load(corner_limit(j == 0 ? kA : kD)), last.load(corner_limit(j == 0 ? kB : kC));
@@ -329,7 +328,7 @@ class Stream {
   Scalar *border_, *strip_work_, *strips_;
   std::array<Scalar*, kMaxDepth + 1> rows_;  // point 0 of the first row of each level's window
   int depth_;
-  KernelPlacement<Scalar> placement_;
+  BatchPlacement<Scalar> placement_;
   V centre_[3];
   Scalar unit_;
   To target_;

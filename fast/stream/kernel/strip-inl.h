@@ -139,18 +139,18 @@ struct Ring {
   V k0, k1, centre, difference;
   Numbers<N, most> entry;
 
-  /// Of a corner block `width` entries of the window from number `first` on, seen from the origin if relative.
-  HWY_ATTR HWY_INLINE Ring(const Scalar* block, int c, int first, int width, bool relative, const V* origin,
-                           Scalar* memory)
+  /// Of a corner block `width` entries of the window from number `first` on, seen from an origin if it is not null.
+  HWY_ATTR HWY_INLINE Ring(const Scalar* block, int c, int first, int width, const V* origin, Scalar* memory)
       : k0(N::load(block)),
         k1(N::load(block + L)),
         centre(N::load(block + (CornerBlock::kCentre + c) * L)),
         difference(N::load(block + (CornerBlock::kDifference + c) * L)),
         entry(memory) {
     block += (CornerBlock::kWindow + 3 * first + c) * L;
-    if (relative) {
-      centre = centre - origin[c];
-      each<(most > 0)>(0, width, [&](int t) HWY_ATTR { entry.set(t, N::load(block + 3 * t * L) + centre); });
+    if (origin != nullptr) {
+      const V from = origin[c];
+      centre = centre - from;
+      each<(most > 0)>(0, width, [&](int t) HWY_ATTR { entry.set(t, N::load(block + 3 * t * L) - from); });
     } else {
       each<(most > 0)>(0, width, [&](int t) HWY_ATTR { entry.set(t, N::load(block + 3 * t * L)); });
     }
@@ -201,16 +201,18 @@ class EdgeStream {
   static constexpr int L = N::lanes;
 
   /// work: edge_work_size(depth) * lanes.
-  HWY_ATTR EdgeStream(int depth, const KernelPlacement<Scalar>& placement, Scalar* work)
-      : depth_(depth), placement_(placement), unit_(scaled(placement, depth).unit), work_(work) {}
+  HWY_ATTR EdgeStream(int depth, const BatchPlacement<Scalar>& placement, Scalar* work)
+      : depth_(depth), placement_(placement), unit_(limit_unit(placement.unit, depth)), work_(work) {}
 
   /// Position, and a normal of any length, of points 1 .. 2^depth - 1: to out[6 k .. 6 k + 5], `lanes` numbers each.
-  /// p, q: corner blocks of the ends; p_first, q_first: where in their windows those of the edge begin.
-  HWY_ATTR void points(const Scalar* p, int p_first, const Scalar* q, int q_first, Scalar* out) {
-    const bool local = placement_.has_local_origin(depth_);
+  /// p, q: corner blocks of the ends; p_first, q_first: where in their windows those of the edge begin; own: see
+  /// choose_origin().
+  HWY_ATTR void points(const Scalar* p, int p_first, const Scalar* q, int q_first, const Scalar* own,
+                       Scalar* out) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
-    if (local) choose_middle<N>(p + CornerBlock::kCentre * L, q + CornerBlock::kCentre * L, origin);
-    with_known<N>(local ? depth_ : 0, [&](auto known) HWY_ATTR {
+    if (placement_.local)
+      choose_origin<N>(own, p + CornerBlock::kCentre * L, q + CornerBlock::kCentre * L, origin);
+    with_known<N>(depth_, [&](auto known) HWY_ATTR {
       for (int c = 0; c < 3; ++c) coordinate<known()>(c, p, p_first, q, q_first, origin, out);
     });
     for (int i = 1; i < 1 << depth_; ++i) {
@@ -226,8 +228,9 @@ class EdgeStream {
 
   /// The same, and the ends, as a row.
   template <class Row>
-  HWY_ATTR void scatter(const Scalar* p, int p_first, const Scalar* q, int q_first, const Row& to) {
-    points(p, p_first, q, q_first, work_);
+  HWY_ATTR void scatter(const Scalar* p, int p_first, const Scalar* q, int q_first, const Scalar* own,
+                        const Row& to) {
+    points(p, p_first, q, q_first, own, work_);
     scatter_kept(p, q, work_, to);
   }
   template <class Row>
@@ -248,23 +251,15 @@ class EdgeStream {
     constexpr bool k = known > 0;
     constexpr int kEntries = k ? edge_window_width(known) : 0, kPoints = k ? 1 << known : 0;
     const int depth = k ? known : depth_, end = 1 << depth, width = edge_window_width(depth);
-    const bool relative = k || placement_.has_local_origin(depth);
     Scalar* memory = across_of(end + 1);
-    Ring<N, kEntries> a(p, c, p_first, width, relative, origin, memory);
-    Ring<N, kEntries> b(q, c, q_first, width, relative, origin, memory + width * L);
+    Ring<N, kEntries> a(p, c, p_first, width, origin, memory);
+    Ring<N, kEntries> b(q, c, q_first, width, origin, memory + width * L);
     memory += 2 * width * L;
     Numbers<N, k ? kPoints + 1 : 0> line(memory);
     Numbers<N, kPoints> up(memory + (end + 1) * L), down(memory + (2 * end + 1) * L);
 
-    // With an origin of their own the two ends know their common neighbours to a last bit each; both faces take
-    // the mean.
     line.set(0, a.centre), line.set(1, b.centre);
-    V above = a.entry.get(depth + 2), below = a.entry.get(depth);
-    if (relative) {
-      above = N::splat(.5) * (above + b.entry.get(depth));
-      below = N::splat(.5) * (below + b.entry.get(depth + 2));
-    }
-    up.set(0, above), down.set(0, below);
+    up.set(0, a.entry.get(depth + 2)), down.set(0, a.entry.get(depth));
     each_level<known>(depth, [&](int level) HWY_ATTR {
       refine_line<k>(1 << level, line, up, down);
       // What the rings of the ends give: the ends, and the points next to them across the edge. At P the left
@@ -313,7 +308,7 @@ class EdgeStream {
   }
 
   int depth_;
-  KernelPlacement<Scalar> placement_;
+  BatchPlacement<Scalar> placement_;
   Scalar unit_;
   Scalar* work_;
 };

@@ -22,7 +22,7 @@ namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 
 template <int lanes>
-HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+HWY_ATTR const char* run_lanes(float* input, int depth, const BatchPlacement<float>& placement, float* work,
                                const Target<float>& target) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
   Stream<Number>(input, depth, placement, work, {target}).run();
@@ -30,15 +30,16 @@ HWY_ATTR const char* run_lanes(float* input, int depth, const KernelPlacement<fl
 }
 
 template <int lanes>
-HWY_ATTR void run_edge_lanes(const float* input, int depth, const KernelPlacement<float>& placement,
+HWY_ATTR void run_edge_lanes(const float* input, int depth, const BatchPlacement<float>& placement,
                              float* work, float* out, std::ptrdiff_t lane_stride) {
   using Number = LaneNumber<hn::CappedTag<float, lanes>>;
   EdgeStream<Number>(depth, placement, work)
-      .scatter(input, 0, input + edge_block_size(depth) * lanes, 0, LaneRow<Number>{out, lane_stride});
+      .scatter(input, 0, input + edge_block_size(depth) * lanes, 0, input + edge_part_offset(depth) * lanes,
+               LaneRow<Number>{out, lane_stride});
 }
 
 #if HWY_TARGET == HWY_AVX3
-HWY_ATTR void run_lines(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+HWY_ATTR void run_lines(float* input, int depth, const BatchPlacement<float>& placement, float* work,
                         float* const* lane, Stores stores) {
   using Number = LaneNumber<hn::CappedTag<float, 16>>;
   LineRuns<Number> runs(lane, stores);
@@ -71,16 +72,16 @@ namespace {
 
 HWY_EXPORT(list_kernels);
 
-const char* run_scalar(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+const char* run_scalar(float* input, int depth, const BatchPlacement<float>& placement, float* work,
                        const Target<float>& target) {
   generic::Stream<ScalarNumber<float>>(input, depth, placement, work, {target}).run();
   return "scalar";
 }
 
-void run_edge_scalar(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
+void run_edge_scalar(const float* input, int depth, const BatchPlacement<float>& placement, float* work,
                      float* out, std::ptrdiff_t lane_stride) {
   generic::EdgeStream<ScalarNumber<float>>(depth, placement, work)
-      .scatter(input, 0, input + edge_block_size(depth), 0,
+      .scatter(input, 0, input + edge_block_size(depth), 0, input + edge_part_offset(depth),
                generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
 }
 

@@ -18,14 +18,14 @@ struct Kernel {
   bool fused;        // hardware multiply-add; without it the bits come from std::fma, slowly
   /// A batch from input to target, see Stream. Returns `name` of the variant that really ran, as compiled
   /// into it.
-  const char* (*run)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+  const char* (*run)(float* input, int depth, const BatchPlacement<float>& placement, float* work,
                      const Target<float>& target);
   /// `lanes` control edges, see EdgeStream: the vertices of edge e from out + e * lane_stride, in numbers.
-  void (*run_edges)(const float* input, int depth, const KernelPlacement<float>& placement, float* work,
+  void (*run_edges)(const float* input, int depth, const BatchPlacement<float>& placement, float* work,
                     float* out, std::ptrdiff_t lane_stride);
   /// A batch to memory that each grid has for itself, in whole cache lines: that of lane k, row by row, from
   /// lane[k] on, and no byte beyond. Past the caches the caller fences. Null: this variant has rows alone.
-  void (*run_lines)(float* input, int depth, const KernelPlacement<float>& placement, float* work,
+  void (*run_lines)(float* input, int depth, const BatchPlacement<float>& placement, float* work,
                     float* const* lane, Stores stores);
 };
 
@@ -39,13 +39,13 @@ struct QuadKernel {
   bool fused;  // hardware multiply-add; without it the bits come from std::fma, slowly
   /// A batch from input to target: quads of any valences, regular quads, sides alone. Each returns `name` of
   /// the variant that really ran, as compiled into it.
-  using Run = const char*(const QuadBatch<float>& batch, const KernelPlacement<float>& placement, float* work,
+  using Run = const char*(const QuadBatch<float>& batch, const Placement<float>& placement, float* work,
                           const QuadTarget<float>& target);
   Run* quads;    // QuadStream
   Run* patches;  // QuadPatch
   Run* sides;    // QuadStream, row 0 only
   /// Quads and regular quads in whole cache lines, see Kernel::run_lines. Null: this variant has none.
-  using Lines = void(const QuadBatch<float>& batch, const KernelPlacement<float>& placement, float* work,
+  using Lines = void(const QuadBatch<float>& batch, const Placement<float>& placement, float* work,
                      float* const* lane, Stores stores);
   Lines* quad_lines;
   Lines* patch_lines;

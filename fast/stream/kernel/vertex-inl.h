@@ -36,6 +36,13 @@ HWY_ATTR HWY_INLINE void choose_middle(const typename N::Scalar* p, const typena
   for (int c = 0; c < 3; ++c)
     origin[c] = (N::splat(.5) * (N::load(p + c * N::lanes) + N::load(q + c * N::lanes)) + magic) - magic;
 }
+/// The same in the lanes in which a part has an origin of its own, see Part; elsewhere 0.
+template <class N, class V>
+HWY_ATTR HWY_INLINE void choose_origin(const typename N::Scalar* own, const typename N::Scalar* p,
+                                       const typename N::Scalar* q, V* origin) {
+  choose_middle<N>(p, q, origin);
+  for (int c = 0; c < 3; ++c) origin[c] = N::select(N::load(own), origin[c], N::splat(0));
+}
 
 /// A vertex on its way: limit position, a normal of any length and its square. Its way to unit length is a
 /// chain of dependent steps, longer than what a processor can look ahead; so it is cut in pieces, between

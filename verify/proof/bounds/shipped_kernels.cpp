@@ -61,7 +61,7 @@ PlacedPoints<float> points_of(std::span<const FloatPoints> meshes, const std::ve
   std::vector<ControlPoint<float>> points;
   for (const FloatPoints& mesh : meshes)
     for (const auto& p : mesh) points.push_back({p.x, p.y, p.z, 0});
-  PlacedPoints<float> placed{{}, KernelPlacement<float>{}};
+  PlacedPoints<float> placed{{}, fast::Placement<float>{}};
   if (uncut.empty()) placed.points = points;
   for (const std::int32_t v : uncut) placed.points.push_back(points[static_cast<std::size_t>(v)]);
   return placed;
@@ -147,28 +147,27 @@ void stream_triangles(ProvedKernel kernel, const data::ControlMesh& mesh, std::s
         else
           grids.push_back({face, face + twin / 3, 0, twin % 3, depth});
       }
-      gather(rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
+      return gather(rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
     };
     collector.begin(target.name, target.lanes);
     if (kernel == ProvedKernel::kRowStreamEdge) {
       for (std::int32_t h = 0; h < (twin < 0 ? 3 : 6); ++h)
         collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
           const auto edges = of_lanes(copy, h, 3 * faces);
-          gather_edges(rings, std::span<const std::int32_t>(edges), depth, target.lanes, input.data());
-          target.run_edges(input.data(), depth, rings.placement(), work.data(), out, stride);
+          const auto placement =
+              gather_edges(rings, std::span<const std::int32_t>(edges), depth, target.lanes, input.data());
+          target.run_edges(input.data(), depth, placement, work.data(), out, stride);
         });
       continue;
     }
     const auto row = static_cast<std::ptrdiff_t>(6 * width);
     collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-      gather_pairs(copy);
-      target.run(input.data(), depth, rings.placement(), work.data(), {out, stride, row, nullptr, nullptr});
+      target.run(input.data(), depth, gather_pairs(copy), work.data(), {out, stride, row, nullptr, nullptr});
     });
     if (target.run_lines == nullptr) continue;
     collector.begin(target.name, target.lanes);
     collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-      gather_pairs(copy);
-      target.run_lines(input.data(), depth, rings.placement(), work.data(),
+      target.run_lines(input.data(), depth, gather_pairs(copy), work.data(),
                        lanes_of(out, stride, target.lanes).data(), fast::Stores::kOrdinary);
     });
   }
@@ -180,52 +179,48 @@ void stream_quads(ProvedKernel kernel, const data::ControlMesh& mesh, std::span<
   const fast::QuadMesh quads(all);
   const QuadRings rings(quads, points_of(meshes, quads.uncut), 0);
   const std::size_t faces = mesh.faces.size(), width = static_cast<std::size_t>(side(depth));
-  // As QuadStreamRuns has them.
-  std::vector<KernelPlacement<float>> placements{rings.placement()};
-  if (kernel != ProvedKernel::kRowStreamPatch && depth > 0 && !placements[0].has_local_origin(depth)) {
-    placements.push_back(placements[0]);
-    placements[1].local_from = 1;
-  }
-
   AlignedFloats input, work;
   for (const QuadKernel& target : scalar_first(quad_kernels())) {
     input.grow(static_cast<std::size_t>(target.lanes * quad_input_size(depth)));
     work.grow(static_cast<std::size_t>(target.lanes * quad_work_size(depth)));
     const bool patch = kernel == ProvedKernel::kRowStreamPatch;
-    const auto batch_of = [&](const std::vector<std::int32_t>& copy) {
+    // As QuadStreamRuns has them.
+    const std::vector<bool> origins = origins_at(patch ? 0 : depth);
+    const auto batch_of = [&](const std::vector<std::int32_t>& copy, bool local) {
       const auto list = of_lanes(copy, 0, faces);
-      return patch ? gather_patches<float>(rings, list, depth, target.lanes, input.data())
-                   : gather_quads<float>(rings, list, depth, target.lanes, input.data());
+      if (patch) return gather_patches<float>(rings, list, depth, target.lanes, input.data());
+      return with_origins(gather_quads<float>(rings, list, depth, target.lanes, input.data()), local,
+                          target.lanes);
     };
     const auto row = static_cast<std::ptrdiff_t>(6 * width);
-    const auto run = [&](QuadKernel::Run* code, const QuadBatch<float>& batch,
-                         const KernelPlacement<float>& placement, float* out, std::ptrdiff_t stride) {
-      code(batch, placement, work.data(),
+    const auto run = [&](QuadKernel::Run* code, const QuadBatch<float>& batch, float* out,
+                         std::ptrdiff_t stride) {
+      code(batch, rings.placement(), work.data(),
            {lanes_of(out, stride, target.lanes).data(), row, nullptr, nullptr});
     };
     collector.begin(target.name, target.lanes);
-    for (const auto& placement : placements) {
+    for (const bool local : origins) {
       if (kernel == ProvedKernel::kRowStreamEdge) {
         for (std::int32_t side = 0; side < 4; ++side)
           collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
             const auto edges = of_lanes(copy, side, 4 * faces);
-            run(target.sides, gather_sides<float>(rings, edges, depth, target.lanes, input.data()), placement,
-                out, stride);
+            const auto batch = gather_sides<float>(rings, edges, depth, target.lanes, input.data());
+            run(target.sides, with_origins(batch, local, target.lanes), out, stride);
           });
         continue;
       }
       collector.add(width * width, all_of(width * width),
                     [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-                      run(patch ? target.patches : target.quads, batch_of(copy), placement, out, stride);
+                      run(patch ? target.patches : target.quads, batch_of(copy, local), out, stride);
                     });
     }
     QuadKernel::Lines* const lines = patch ? target.patch_lines : target.quad_lines;
     if (lines == nullptr || kernel == ProvedKernel::kRowStreamEdge) continue;
     collector.begin(target.name, target.lanes);
-    for (const auto& placement : placements)
+    for (const bool local : origins)
       collector.add(width * width, all_of(width * width),
                     [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-                      lines(batch_of(copy), placement, work.data(),
+                      lines(batch_of(copy, local), rings.placement(), work.data(),
                             lanes_of(out, stride, target.lanes).data(), fast::Stores::kOrdinary);
                     });
   }

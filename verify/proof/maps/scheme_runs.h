@@ -102,10 +102,12 @@ class QuadStreamRuns {
   /// and with these, one after the other.
   template <class Visit>
   void whole(int depth, Visit&& visit) const {
-    for (const auto& placement : placements(depth))
+    for (const bool local : fast::row_stream::origins_at(depth))
       run_whole(depth, visit, [&](auto lane, const Rings& rings, T* input, T* work, const auto& target) {
         const auto batch = fast::row_stream::gather_quads<T>(rings, kFace, depth, 1, input);
-        fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work, {target}).run();
+        fast::row_stream::generic::QuadStream<decltype(lane)>(fast::row_stream::with_origins(batch, local, 1),
+                                                              rings.placement(), work, {target})
+            .run();
       });
   }
   /// The same as a polynomial: a regular quad alone.
@@ -120,11 +122,13 @@ class QuadStreamRuns {
   template <class Visit>
   void sides(int depth, Visit&& visit) const {
     const int size = 1 << depth;
-    for (const auto& placement : placements(depth)) {
+    for (const bool local : fast::row_stream::origins_at(depth)) {
       for (std::int32_t side = 0; side < 4; ++side) {
         const auto run = [&](auto lane, const Rings& rings, T* input, T* work, const auto& target) {
           const auto batch = fast::row_stream::gather_sides<T>(rings, {&side, 1}, depth, 1, input);
-          fast::row_stream::generic::QuadStream<decltype(lane)>(batch, placement, work, {target}).run_side();
+          fast::row_stream::generic::QuadStream<decltype(lane)>(
+              fast::row_stream::with_origins(batch, local, 1), rings.placement(), work, {target})
+              .run_side();
         };
         const TwoRuns<T> points = evaluate(depth, 1, run);
         for (int t = 0; t <= size; ++t) visit(on_side(side, t, size), points[t]);
@@ -134,20 +138,10 @@ class QuadStreamRuns {
 
  private:
   using Rings = fast::row_stream::BasicQuadRings<T>;
-  using Placement = fast::row_stream::KernelPlacement<T>;
   static constexpr std::array<std::int32_t, 1> kFace{0};
 
-  std::vector<Placement> placements(int depth) const {
-    std::vector<Placement> result{rings_[0].placement()};
-    if (depth > 0 && !result[0].has_local_origin(depth)) {
-      result.push_back(result[0]);
-      result[1].local_from = 1;
-    }
-    return result;
-  }
-
   fast::row_stream::PlacedPoints<T> placed() const {
-    fast::row_stream::PlacedPoints<T> result{{}, fast::row_stream::KernelPlacement<T>{}};
+    fast::row_stream::PlacedPoints<T> result{{}, fast::Placement<T>{}};
     for (const auto& p : cut_.positions) result.points.push_back({p.x, p.y, p.z, T(0)});
     return result;
   }
@@ -186,7 +180,7 @@ struct TriangleRuns {
   static constexpr int kTimes = 12, kTwos = 3;
   template <class T>
   static T scaled(T unit, int depth) {
-    return fast::row_stream::scaled(fast::row_stream::KernelPlacement<T>{{{}, unit}}, depth).unit;
+    return fast::row_stream::limit_unit(unit, depth);
   }
 };
 struct QuadRuns {

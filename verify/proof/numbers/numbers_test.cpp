@@ -186,16 +186,16 @@ TEST(Cost_RowStream, IsItsRulesTimesItsPoints) {
   }
 }
 
-// What local origins add, per coordinate: an origin for each of five edges and the grid; windows seen from it; the mean of
-// common neighbours; a level of n edges has 5 n - 4 edge points, n - 1 vertices and two rings. Limits are as many as without.
+// What local origins add, per coordinate: an origin for each of five edges and the grid; ends and windows seen from
+// it; a level of n edges has 5 n - 4 edge points, n - 1 vertices and two rings. Limits are as many as without.
 Counts local_by_hand(int depth) {
   const Counts origin{3, 1, 1, 0, 0};
-  Counts edge = origin + Counts{2 * (4 + 2 * depth) + 2, 2, 0, 0, 0};
+  Counts edge = origin + Counts{2 * (4 + 2 * depth), 0, 0, 0, 0};
   for (int level = 0; level < depth; ++level) {
     const std::int64_t n = power(2, level), entries = 2 * (2 * (depth - level) + 1);
     edge = edge + (5 * n - 4 + entries) * kStream.edge + (n - 1) * kStream.vertex + 2 * Counts{0, 2, 1, 0, 0};
   }
-  return 3 * (5 * edge + origin + Counts{4 + 2 * (18 + 8 * depth), 0, 0, 0, 0});
+  return 3 * (5 * edge + origin + Counts{4 + 18 + 8 * depth, 0, 0, 0, 0});
 }
 
 TEST(Cost_RowStream, RisesWithLocalOriginsByTheStripsAlone) {

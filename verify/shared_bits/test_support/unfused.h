@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,20 +27,23 @@ struct Unfused : ScalarNumber<float> {
   static float fnma(float a, float b, float c) { return c - a * b; }
 };
 
-/// The grids and the edges of a mesh at a depth, with local origins or without, by both kernels.
+/// The grids and the edges of a mesh at a depth, by both kernels.
+///   origins   whether all have origins of their own, or none; else those for which the mesh wants them
 class Compared {
  public:
-  Compared(const Kernel& kernel, const std::string& name, int depth, bool local)
+  Compared(const Kernel& kernel, const std::string& name, int depth, std::optional<bool> origins)
       : kernel_(kernel),
         mesh_(data::named_mesh(name)),
         adjacency_(mesh_),
         depth_(depth),
         placed_(place<float>(mesh_)) {
-    placed_.placement.local_from = local ? 1 : kMaxDepth + 1;
+    if (!origins) return;
+    placed_.faces_local_from.clear();
+    placed_.local_from = *origins ? 1 : kMaxDepth + 1;
   }
 
-  // Numbers whose bits differ, of how many.
-  std::int64_t differ = 0, compared = 0;
+  // Numbers whose bits differ, of how many; and items some part of which has an origin of its own.
+  std::int64_t differ = 0, compared = 0, local = 0, items = 0;
 
   void grids() {
     const auto depths = std::vector<std::int32_t>(mesh_.faces.size(), depth_);
@@ -48,16 +52,16 @@ class Compared {
     run(
         all, 6 * n * n, input_size(depth_),
         [&](const auto& rings, std::span<const Grid> some, int lanes, float* input) {
-          gather(rings, some, depth_, lanes, input);
+          return gather(rings, some, depth_, lanes, input);
         },
-        [&](float* input, float* out) {
-          kernel_.run(input, depth_, placed_.placement, nullptr,
+        [&](float* input, const auto& placement, float* out) {
+          kernel_.run(input, depth_, placement, nullptr,
                       {out, static_cast<std::ptrdiff_t>(6 * n * n), static_cast<std::ptrdiff_t>(6 * n),
                        nullptr, nullptr});
         },
-        [&](float* input, float* work, float* out) {
+        [&](float* input, const auto& placement, float* work, float* out) {
           const Target<float> target{out, 0, static_cast<std::ptrdiff_t>(6 * n), nullptr, nullptr};
-          generic::Stream<Unfused>(input, depth_, placed_.placement, work, {target}).run();
+          generic::Stream<Unfused>(input, depth_, placement, work, {target}).run();
         });
   }
   void edges() {
@@ -67,33 +71,34 @@ class Compared {
     run(
         all, n, edge_input_size(depth_),
         [&](const auto& rings, std::span<const std::int32_t> some, int lanes, float* input) {
-          gather_edges(rings, some, depth_, lanes, input);
+          return gather_edges(rings, some, depth_, lanes, input);
         },
-        [&](float* input, float* out) {
-          kernel_.run_edges(input, depth_, placed_.placement, nullptr, out, static_cast<std::ptrdiff_t>(n));
+        [&](float* input, const auto& placement, float* out) {
+          kernel_.run_edges(input, depth_, placement, nullptr, out, static_cast<std::ptrdiff_t>(n));
         },
-        [&](float* input, float* work, float* out) {
-          generic::EdgeStream<Unfused> strip(depth_, placed_.placement, work);
-          strip.scatter(input, 0, input + edge_block_size(depth_), 0, generic::LaneRow<Unfused>{out, 0});
+        [&](float* input, const auto& placement, float* work, float* out) {
+          generic::EdgeStream<Unfused>(depth_, placement, work)
+              .scatter(input, 0, input + edge_block_size(depth_), 0, input + edge_part_offset(depth_),
+                       generic::LaneRow<Unfused>{out, 0});
         });
   }
 
  private:
   template <class Item, class Gather, class OnGpu, class Here>
-  void run(const std::vector<Item>& items, std::size_t numbers, int input_numbers, Gather&& gather_some,
+  void run(const std::vector<Item>& list, std::size_t numbers, int input_numbers, Gather&& gather_some,
            OnGpu&& on_gpu, Here&& here) {
     const BasicLoopRings<ScalarNumber<float>> rings(adjacency_, placed_);
     const BasicLoopRings<Unfused> same(adjacency_, placed_);
     const auto lanes = static_cast<std::size_t>(kernel_.lanes);
     std::vector<float> input(static_cast<std::size_t>(input_numbers) * lanes), out(numbers * lanes),
         expected(numbers), work(static_cast<std::size_t>(work_size(depth_)));
-    for (std::size_t first = 0; first < items.size(); first += lanes) {
-      const auto some = std::span(items).subspan(first, std::min(lanes, items.size() - first));
-      gather_some(rings, some, kernel_.lanes, input.data());
-      on_gpu(input.data(), out.data());
+    for (std::size_t first = 0; first < list.size(); first += lanes) {
+      const auto some = std::span(list).subspan(first, std::min(lanes, list.size() - first));
+      on_gpu(input.data(), gather_some(rings, some, kernel_.lanes, input.data()), out.data());
       for (std::size_t k = 0; k < some.size(); ++k) {
-        gather_some(same, some.subspan(k, 1), 1, input.data());
-        here(input.data(), work.data(), expected.data());
+        const auto placement = gather_some(same, some.subspan(k, 1), 1, input.data());
+        ++items, local += placement.local ? 1 : 0;
+        here(input.data(), placement, work.data(), expected.data());
         for (std::size_t i = 0; i < numbers; ++i, ++compared)
           differ += std::memcmp(&out[k * numbers + i], &expected[i], sizeof(float)) != 0 ? 1 : 0;
       }

@@ -197,13 +197,16 @@ TEST(LocalOrigins, BeginTheSoonerTheLowerATriangleIs) {
   EXPECT_EQ(from(0), 4) << "flat: it has no normal to lose";
 }
 
-/// A sheet of 92 x 91 vertices, of size 1, with a column of needles: 1e-4 wide.
+/// A sloping sheet of 92 x 91 vertices, of size 1, with a column of needles: 1e-4 wide.
 data::ControlMesh sheet_with_needles() {
   data::ControlMesh mesh = grid_sheet(90, 91);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     auto& p = mesh.positions[v];
+    if (v % 92 == 45) p = mesh.positions[v - 1], p[0] += 90e-4;
+  }
+  for (auto& p : mesh.positions) {
+    p[2] += p[0] / 2;
     for (double& x : p) x = static_cast<float>(x / 90);
-    if (v % 92 == 45) p = mesh.positions[v - 1], p[0] += 1e-4;
   }
   return mesh;
 }

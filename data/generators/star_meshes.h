@@ -62,7 +62,7 @@ struct PlannedStars {
   const char* depths;  ///< .. and how the depths of its faces are chosen, as --depths takes it
   bool relations;      ///< whether the relations are looked at, too
 };
-/// Found by `limitcheck_make_plan` (verify/audit/cover.cpp).
+/// Found by `limitcheck_make_plan` (verify/audit/make_plan.cpp).
 const std::vector<PlannedStars>& planned_stars(bool triangles);
 
 }  // namespace limitcheck::data

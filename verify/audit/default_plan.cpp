@@ -17,6 +17,8 @@
 namespace limitcheck::verify {
 namespace {
 
+constexpr std::size_t kSampled = 3000;  // faces of a mesh of large indices
+
 // What the cells of neighbourhoods (cells.h) do not say: deep levels, the ways of asking, geometry, topology,
 // and what the relations look at. Each case is here because faults of its kind passed the audit without it.
 const std::vector<PlannedCase>& small_cases() {
@@ -105,6 +107,42 @@ std::vector<PlannedCase> chosen_cases(Level level) {
 }
 
 }  // namespace
+
+AuditMesh made(const PlannedCase& planned) {
+  AuditMesh m{planned.mesh, data::named_mesh(planned.mesh)};
+  m.depth = planned.depth;
+  m.face_depth = face_depths(parse_depths(planned.depths), m.mesh, planned.depth);
+  m.depths = planned.depths;
+  m.relations = planned.relations;
+  m.asked_again = planned.asked_again;
+  // Deep levels and large meshes cost most, and what turned corners show is seen on the others, too.
+  m.turned = planned.depth < 4 && m.mesh.faces.size() <= 8192;
+  if (m.mesh.positions.size() > 0x8000 && m.depth > 0)
+    m.sample = std::make_shared<MeshSample>(m.mesh, kSampled, 1);
+  return m;
+}
+
+Looked look_at(const AuditMesh& mesh) {
+  const bool uniform = mesh.face_depth.empty() && !mesh.sample;
+  return {sharp_kinds(mesh.mesh, mesh.scheme()) | (uniform ? 0 : kNeedsDepths), cells_of(mesh)};
+}
+
+const std::vector<std::int32_t>& steps_of_ability() {
+  constexpr std::int32_t kHeld = LC_SHARP_CREASES | LC_SHARP_CORNERS, kUniform = kHeld | LC_SHARP_SEMI;
+  constexpr std::int32_t kAll = kUniform | LC_SHARP_CHAIKIN | LC_SHARP_SMOOTH_TRIANGLES;
+  static const std::vector<std::int32_t> all{
+      0, LC_SHARP_CREASES, kHeld, kUniform, kAll, kNeedsDepths, kHeld | kNeedsDepths, kAll | kNeedsDepths};
+  return all;
+}
+
+Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::int32_t ability) {
+  Covered result{CellSet(cells(scheme).size()), CellSet(cells(scheme).size())};
+  for (std::size_t k = 0; k < result.wanted.size(); ++k)
+    result.wanted[k] = (cells(scheme)[k].needs() & ~(ability | kNeedsBoundary | kNeedsRelations)) == 0;
+  for (const Looked& one : known)
+    if ((one.needs & ~ability) == 0) add_cells(result.looked, one.cells);
+  return result;
+}
 
 std::vector<AuditMesh> default_plan(Level level) {
   std::vector<PlannedCase> cases = chosen_cases(level);

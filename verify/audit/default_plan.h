@@ -14,8 +14,8 @@ namespace limitcheck::verify {
 
 /// The cases, those of the same mesh one after the other: the worst cases known (data/worst_cases.h; not at
 /// kQuick), the stock shapes (data/generators/named_mesh.h), deep levels, unequal depths, awkward topology and
-/// geometry, what the relations need, the stars that look at all other kinds of neighbourhood (cover(),
-/// data/generators/star_meshes.h), and parts of meshes whose indices need more than 16 bits.
+/// geometry, what the relations need, the stars that look at all other kinds of neighbourhood
+/// (data/generators/star_meshes.h), and parts of meshes whose indices need more than 16 bits.
 /// Throws data::InputError as worst_case_meshes() does.
 std::vector<AuditMesh> default_plan(Level level);
 
@@ -30,7 +30,7 @@ bool is_looked_at_beside_all(const AuditSubject& subject, bool on_a_device, cons
 /// subject does not say.
 std::vector<AuditMesh> default_plan(Level level, const std::vector<AuditSubject>& subjects);
 
-// How the plan comes about: meshes that cover kinds of neighbourhood (cover.cpp).
+// How the plan comes about: meshes that cover kinds of neighbourhood (make_plan.cpp).
 
 /// A case of the plan: a mesh by its name, a depth, and how the depths of faces are chosen.
 struct PlannedCase {
@@ -54,10 +54,6 @@ Looked look_at(const AuditMesh& mesh);
 /// it that ask for no more.
 const std::vector<std::int32_t>& steps_of_ability();
 
-/// Those that look at the cells of a scheme which `known` cases do not, for each step of ability, as far as
-/// they are found: greedily those that look at most for their time. Their meshes are named as Stars::text() does
-/// (data/generators/star_meshes.h). The same for the same seed. `known` has them added.            O(minutes)
-std::vector<PlannedCase> cover(data::Scheme scheme, std::vector<Looked>& known, std::uint64_t seed);
 /// The cells that need no more than a subject does, and whether cases that need no more look at them.
 struct Covered {
   CellSet wanted, looked;

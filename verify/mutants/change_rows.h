@@ -21,6 +21,7 @@ std::vector<Change> faults_of_channels();
 std::vector<Change> faults_of_frames();
 std::vector<Change> faults_of_numbers();
 std::vector<Change> faults_of_refusals();
+std::vector<Change> faults_of_sharp_rules();
 std::vector<Change> faults_of_memory();
 std::vector<Change> faults_of_polygons();
 std::vector<Change> faults_of_tags();
@@ -121,6 +122,8 @@ inline Change tags(std::string name, std::string description, std::function<void
     };
   return c;
 }
+/// At a vertex with more edges than that, only the first ones have tags.
+void lose_edges_beyond(Tags t, int most);
 /// Each sharpness becomes what `value` makes of it; 0 is no tag.
 inline Change values(std::string name, std::string description, std::function<float(A, float)> value,
                      const char* check = "positions") {
@@ -135,6 +138,9 @@ inline Change values(std::string name, std::string description, std::function<fl
       check);
 }
 
+inline bool lasts(float sharpness) {
+  return sharpness >= data::kInfiniteSharpness;
+}
 inline bool inside_face(A a, const Place& p) {
   return !a.side_of(p);
 }

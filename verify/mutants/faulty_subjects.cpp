@@ -254,7 +254,8 @@ std::vector<Change> together(std::initializer_list<std::vector<Change>> lists) {
 const std::vector<FaultTable>& fault_tables() {
   static const std::vector<Change> any = together({faults_of_frames(), faults_of_numbers(),
                                                    faults_of_refusals(), faults_of_memory(),
-                                                   faults_of_polygons(), faults_of_tags()}),
+                                                   faults_of_polygons(), faults_of_tags(),
+                                                   faults_of_sharp_rules()}),
                                    rare = together({faults_of_rare_tags(), faults_of_rare_places()}),
                                    channels =
                                        together({faults_of_channels(), faults_of_channel_derivatives()});

@@ -52,8 +52,8 @@ class LoopRules : public MutantRules {
     return out;
   }
   Limit limit(const MutantRing& ring, int depth) const override {
-    const auto right = reference::vertex_limit<double>(ring.point, ring.edge_span(), ring.on_boundary,
-                                                       limit_weights_, ring.state);
+    const auto right =
+        reference::vertex_limit<double>(ring.point, ring.edge_span(), ring.on_boundary, limit_weights_);
     return {position(ring, depth, right.position), normal(ring, right.tangents)};
   }
 
@@ -136,7 +136,6 @@ V LoopRules::position(const MutantRing& ring, int depth, const V& right) const {
   if (refined_ || is("no_limit") || (is("no_limit_at_depth_0") && depth == 0) ||
       (is("no_limit_from_depth_5") && depth >= 5) || (is("valence_in_8_bits") && count == 256))
     return p;
-  if (ring.state != reference::VertexState::kOrdinary) return right;
   if (ring.on_boundary) {
     if (is("boundary_limit_hoppe")) return p * .6 + (e.front() + e.back()) * .2;
     return is("corners_stay") && count == 2 ? p : right;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -24,14 +25,12 @@ struct Mutation {
   std::string_view check;       // the row of the audit meant for it
   std::string_view claim = {};  // of the paper, where this is the paper taken literally
   bool in_float = false;        // delivered in float: small faults hide in wider bounds
-  bool sharp = false;           // only sharp edges and vertices bring it out
 };
 
 /// All mutations of the rules of a scheme; the first is "none".
 std::span<const Mutation> mutations(data::Scheme scheme);
 
-/// A vertex with its neighbours and, in a mesh of quads, the far corners of its faces, where the mesh is cut along the
-/// edges that stay sharp.
+/// A vertex with its neighbours and, in a mesh of quads, the far corners of its faces.
 using MutantRing = reference::catmull_clark::RingedCorner<reference::Vec3<double>>;
 /// The sum of e_i x e_{i+1}, from the vertex: of the triangles around, by their areas.
 inline reference::Vec3<double> facets(const MutantRing& ring) {
@@ -48,7 +47,7 @@ class MutantRules {
 
   bool is(std::string_view name) const { return mutation_ == name; }
 
-  /// Step number `step`, from 0, of `depth`, as if nothing were sharp: vertex points in the order of the vertices, then
+  /// Step number `step`, from 0, of `depth`, of a mesh without tags: vertex points in the order of the vertices, then
   /// edge points, then, of quads, face points.
   virtual Points refine(const reference::Topology& topology, const Points& points, int step,
                         int depth) const = 0;
@@ -65,34 +64,38 @@ class MutantRules {
 ///   weights   the family that the subject declares
 ///   refined   limit() leaves points as they are
 std::unique_ptr<MutantRules> loop_rules(std::string_view mutation, reference::Weights weights, bool refined);
-///   triangles   the rule of the mesh for the edges of triangles in step 0
-std::unique_ptr<MutantRules> quad_rules(std::string_view mutation, data::TriangleRule triangles);
+std::unique_ptr<MutantRules> quad_rules(std::string_view mutation);
 
-/// A control mesh after `depth` steps, at least one where a face is no quad nor a triangle of Loop's, and the limits of
-/// its vertices.
+/// The limit points of a control mesh over 2^depth steps to a side, at least two where a face is no quad nor a triangle
+/// of Loop's: by the rules; of a mesh with tags those of the subject `naive`, which has a normal for each side.
 class MutantLevel {
  public:
   using V = MutantRules::V;
   MutantLevel(const data::ControlMesh& control, data::Scheme scheme, const MutantRules& rules, int depth);
 
-  /// A point of a control face over 2^depth steps to a side: the number of a corner of this level's faces in which it
-  /// lies, of a face inside that one.
-  std::size_t corner(std::size_t control_face, FaceDomain::Point p) const;
-  const V& position(std::size_t corner) const { return positions_[vertex(corner)]; }
-  const V& normal(std::size_t corner) const { return normals_[corner]; }
-  /// The whole ring of the vertex, if it is closed begun at edge `first`, counted round and round.
-  MutantRing ring(std::size_t corner, std::size_t first) const;
+  const MutantRules::Limit& at(std::size_t face, const FaceDomain::Point& p) const {
+    return limits_[number(face, p)];
+  }
+  /// In a mesh without tags: the whole ring there, if it is closed begun at edge `first`, counted round and round.
+  MutantRing ring(std::size_t face, const FaceDomain::Point& p, std::size_t first) const;
   int depth() const { return depth_; }
 
  private:
-  std::int32_t vertex(std::size_t corner) const { return topology_.faces().corners()[corner]; }
+  std::size_t number(std::size_t face, const FaceDomain::Point& p) const {
+    return first_[face] + static_cast<std::size_t>(domains_[face].number(p, n_));
+  }
+  template <class Refined, class VertexAt>
+  void follow(Refined mesh, const MutantRules& rules, VertexAt vertex_at);
+  MutantRing ring_of(std::size_t v) const;
 
-  data::Faces control_;
-  data::Scheme scheme_;
   int depth_;
-  reference::Topology topology_;
-  std::vector<V> points_, positions_;  // of each vertex; its limit
-  std::vector<V> normals_;             // of each corner of each face
+  std::int64_t n_;
+  std::vector<FaceDomain> domains_;
+  std::vector<std::size_t> first_;          // of each face, its first lattice point
+  std::vector<MutantRules::Limit> limits_;  // of the lattice points
+  std::vector<std::int32_t> vertex_;        // likewise, of the refined mesh
+  std::vector<V> points_;                   // its vertices
+  std::optional<reference::Topology> topology_;
 };
 
 }  // namespace limitcheck::verify

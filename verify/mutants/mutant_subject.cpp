@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The model: a plain, correct tessellator of either scheme that can be told to have one rule wrong. Uniform
-// refinement to the deepest level asked for; each face has vertices of its own. Triangles along a deeper
+// The model: a plain, correct tessellator of either scheme that can be told to have one rule wrong where nothing is
+// sharp. Uniform refinement to the deepest level asked for; each face has vertices of its own. Triangles along a deeper
 // neighbour are cut until they meet its points; triangles of Loop's below depth 2, where nothing is sharp,
 // become fans round their centre. Computes in double.
 //
@@ -42,9 +42,9 @@ struct Settings {
     refined = options.choice("points", {"limit", "refined"}) == 1;
     if (mutation == "warren_declared" || mutation == "warren_limit_of_loop") weights = LC_WEIGHTS_WARREN;
   }
-  std::unique_ptr<MutantRules> rules(data::TriangleRule triangles) const {
+  std::unique_ptr<MutantRules> rules() const {
     return scheme == data::Scheme::kLoop ? loop_rules(mutation, family(weights), refined)
-                                         : quad_rules(mutation, triangles);
+                                         : quad_rules(mutation);
   }
 
   data::Scheme scheme;
@@ -66,9 +66,9 @@ class Frame {
         rules_(rules),
         depth_(depth),
         // Faces that are no quads have points from one step on.
-        level_(
-            control, settings.scheme, rules,
-            *std::max_element(depth.begin(), depth.end()) + (settings.scheme == data::Scheme::kLoop ? 0 : 1)),
+        level_(control, settings.scheme, rules,
+               std::max(*std::max_element(depth.begin(), depth.end()),
+                        settings.scheme == data::Scheme::kLoop ? 0 : 1)),
         n_(std::int64_t{1} << level_.depth()) {
     for (face_ = 0; face_ < depth.size(); ++face_)
       if (depth[face_] >= 0) show();
@@ -142,11 +142,11 @@ class Frame {
     const auto [known, is_new] =
         known_.try_emplace({p.part, p.i, p.j}, static_cast<std::uint32_t>(made.positions.size()));
     if (!is_new) return known->second;
-    const std::size_t at = level_.corner(face_, {rules_.is("rows_of_7_bits") ? p.i & 127 : p.i, p.j, p.part});
-    V position = level_.position(at), normal = level_.normal(at);
-    const auto begun_in_face = [&] { return rules_.limit(level_.ring(at, face_), level_.depth()); };
-    if (rules_.is("sums_begun_in_face")) position = begun_in_face().position;
-    if (rules_.is("normals_begun_in_face")) normal = begun_in_face().normal;
+    auto [position, normal] = level_.at(face_, {rules_.is("rows_of_7_bits") ? p.i & 127 : p.i, p.j, p.part});
+    const auto begun_in_face = [&] { return rules_.limit(level_.ring(face_, p, face_), level_.depth()); };
+    const bool has_ring = control_.sharpness.empty();
+    if (has_ring && rules_.is("sums_begun_in_face")) position = begun_in_face().position;
+    if (has_ring && rules_.is("normals_begun_in_face")) normal = begun_in_face().normal;
     return made.add_vertex(
         position, normal,
         {static_cast<std::int32_t>(face_), static_cast<std::uint32_t>(p.i), static_cast<std::uint32_t>(p.j),
@@ -192,9 +192,7 @@ class ModelSubject {
   }
 
   ModelSubject(const lc_mesh& mesh, Options& options)
-      : settings_(options, kScheme),
-        control_(control_mesh(mesh)),
-        rules_(settings_.rules(control_.sharpness.triangles)) {
+      : settings_(options, kScheme), control_(control_mesh(mesh)), rules_(settings_.rules()) {
     if (control_.faces.empty()) throw SubjectError(LC_INVALID_INPUT, "the mesh has no faces");
     try {
       topology_.emplace(control_.positions.size(), control_.faces);

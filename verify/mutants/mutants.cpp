@@ -69,7 +69,7 @@ const std::vector<Mutant>& mutants() {
           all.push_back({fmt::format("{}{}", scheme == data::Scheme::kLoop ? "" : "quad_", m.name),
                          std::string(m.description), scheme == data::Scheme::kLoop ? kBase : kQuadBase,
                          fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
-                         std::string(m.check), std::string(m.claim), m.sharp, scheme});
+                         std::string(m.check), std::string(m.claim), /*sharp=*/false, scheme});
     for (const FaultTable& table : fault_tables())
       for (const Fault& f : table.faults)
         for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {

@@ -129,47 +129,7 @@ Rows quads() {
       {"lower_corner", "face points lean by 1e-9 to the corner with the lowest number", "vertex-order"},
       {"unstitched", "faces beside deeper ones are not stitched to them", "watertight"},
       {"stitched_on_side_0", "faces are stitched to deeper ones on their first side only", "t-vertices"},
-      // Sharp edges.
-      {"smooth_rule_for_all", "the smooth rule for triangles in all faces", kP, "", false, true},
-      {"smooth_rule_in_every_step", "the smooth rule for triangles in later steps, too", kP, "", false, true},
   };
-}
-
-// Of sharp edges and vertices, in either scheme.
-Rows sharp() {
-  constexpr const char* kP = "positions";
-  Rows all{
-      // Rules of vertices and edges.
-      {"crease_as_corner", "a vertex with two sharp edges stays where it is", kP},
-      {"dart_as_corner", "a vertex at which one sharp edge ends stays where it is", kP},
-      {"three_edges_are_a_crease", "of three sharp edges at a vertex the first two are a crease", kP},
-      {"boundary_not_counted", "a sharp edge that runs into the boundary makes no corner there", kP},
-      // Sharpness.
-      {"below_1_is_smooth", "edges of a sharpness below 1 are smooth", kP},
-      {"falls_by_2", "sharpness falls by 2 in a step", kP},
-      {"last_sharp_step_missing", "the last step of sharp edges is left out", kP},
-      {"no_blend", "a vertex whose rule changes takes the new one at once", kP},
-      {"blend_reversed", "the two rules of a vertex are blended the wrong way round", kP},
-      {"blend_by_the_sharpest", "blended by the largest sharpness that ends, not by the mean", kP},
-      {"tags_for_one_step", "the halves of a sharp edge are smooth", kP},
-      {"tags_of_the_lower_end", "a half of an edge has its tag only at the lower end", "vertex-order"},
-      // Chaikin's creasing.
-      {"chaikin_ends_exchanged", "each half of an edge gets the sharpness of the other one", kP},
-      {"chaikin_without_clamp", "an edge above 1 of which one half ends is blended with its sharpness", kP},
-      {"chaikin_takes_infinite", "edges that stay sharp are part of Chaikin's means", kP},
-      {"chaikin_takes_half", "Chaikin's weights 1/2 and 1/2 for 3/4 and 1/4", kP},
-      {"chaikin_by_maximum", "Chaikin's mean is the largest of the other sharpnesses", kP},
-      {"chaikin_by_sum", "Chaikin's mean is the sum of the other sharpnesses", kP},
-      // Limits.
-      {"dart_limit_smooth", "the limit of a dart by the smooth mask", kP},
-      {"dart_normal_smooth", "the normal of a dart by the smooth masks", "normals"},
-      {"corner_limit_moved", "the limit mask of a crease at vertices that are held", kP},
-      {"normal_of_the_other_side", "sides of a crease have each other's normal", "normals"},
-      {"one_normal_for_all_sides", "all sides of a crease have the normal of the first", "normals"},
-      {"mean_of_all_sides", "all sides of a crease have the mean of their normals", "normals"},
-  };
-  for (Mutation& m : all) m.sharp = true;
-  return all;
 }
 
 }  // namespace
@@ -177,7 +137,7 @@ Rows sharp() {
 std::span<const Mutation> mutations(data::Scheme scheme) {
   const auto list = [](const Rows& own) {
     Rows all{{"none", "nothing: right in every check", ""}};
-    for (const Rows& rows : {own, sharp()}) all.insert(all.end(), rows.begin(), rows.end());
+    all.insert(all.end(), own.begin(), own.end());
     return all;
   };
   static const Rows of_loop = list(loop()), of_quads = list(quads());

@@ -42,8 +42,7 @@ V centroid_by_area(const std::vector<V>& points, std::span<const std::int32_t> c
 
 class QuadRules : public MutantRules {
  public:
-  QuadRules(std::string_view mutation, data::TriangleRule triangles)
-      : MutantRules(mutation), smooth_triangles_(triangles == data::TriangleRule::kSmooth) {}
+  using MutantRules::MutantRules;
 
   Points refine(const Topology& topology, const Points& points, int step, int) const override {
     const std::size_t vertices = points.size(), edges = topology.edges().size();
@@ -68,8 +67,7 @@ class QuadRules : public MutantRules {
   }
   Limit limit(const MutantRing& ring, int) const override {
     const auto right = masks::limit_of<double>(ring);
-    return {ring.state == reference::VertexState::kOrdinary ? position(ring, right.position) : right.position,
-            normal(ring, right.tangents)};
+    return {position(ring, right.position), normal(ring, right.tangents)};
   }
 
  private:
@@ -80,8 +78,6 @@ class QuadRules : public MutantRules {
   // `right` where nothing is changed.
   V position(const MutantRing& ring, const V& right) const;
   V normal(const MutantRing& ring, const reference::Tangents<double>& right) const;
-
-  bool smooth_triangles_;
 };
 
 V QuadRules::face_point(std::span<const std::int32_t> corners, const Points& points, int step) const {
@@ -99,12 +95,8 @@ V QuadRules::face_point(std::span<const std::int32_t> corners, const Points& poi
 double QuadRules::face_weight(const Topology& topology, const reference::Edge& edge, int step) const {
   if (is("edge_points_without_ends")) return 0.5;
   if (is("midpoints")) return 0;
-  const bool in_all_steps = smooth_triangles_ && is("smooth_rule_in_every_step");
-  const bool in_all_faces = smooth_triangles_ && (is("smooth_rule_for_all") || (in_all_steps && step > 0));
-  if (!(step == 0 ? smooth_triangles_ || is("smooth_triangles") : in_all_steps)) return 0.25;
-  const auto of = [&](std::int32_t f) {
-    return topology.faces()[f].size() == 3 || in_all_faces ? 0.47 : 0.25;
-  };
+  if (step > 0 || !is("smooth_triangles")) return 0.25;
+  const auto of = [&](std::int32_t f) { return topology.faces()[f].size() == 3 ? 0.47 : 0.25; };
   return (of(edge.left_face) + of(edge.right_face)) / 2;
 }
 
@@ -179,8 +171,8 @@ V QuadRules::normal(const MutantRing& ring, const reference::Tangents<double>& r
 
 }  // namespace
 
-std::unique_ptr<MutantRules> quad_rules(std::string_view mutation, data::TriangleRule triangles) {
-  return std::make_unique<QuadRules>(mutation, triangles);
+std::unique_ptr<MutantRules> quad_rules(std::string_view mutation) {
+  return std::make_unique<QuadRules>(mutation);
 }
 
 }  // namespace limitcheck::verify

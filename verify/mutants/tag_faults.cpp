@@ -21,9 +21,6 @@ using data::SharpEdge;
 constexpr float kInfinite = data::kInfiniteSharpness;
 constexpr const char* kLaw = "fractional-sharpness";
 
-bool lasts(float s) {
-  return s >= kInfinite;
-}
 // The next sharpness below: it ends after ten steps.
 float almost_infinite() {
   return std::nextafter(kInfinite, 0.F);
@@ -46,15 +43,6 @@ Change vertices(std::string name, std::string description, std::function<bool(A,
     std::erase_if(t.vertices, [&](const auto& v) { return lost(a, v.vertex); });
   });
 }
-// At a vertex with more edges than that, only the first ones have tags.
-void lose_edges_beyond(Tags t, int most) {
-  std::map<VertexId, int> count;
-  std::erase_if(t.edges, [&](const SharpEdge& e) {
-    const bool too_many = count[e.a] >= most || count[e.b] >= most;
-    if (!too_many) ++count[e.a], ++count[e.b];
-    return too_many;
-  });
-}
 // The edge of the mesh that a tag is of.
 const reference::Edge* edge_of(A a, const SharpEdge& tag) {
   const auto& edges = a.topology.edges();
@@ -64,6 +52,15 @@ const reference::Edge* edge_of(A a, const SharpEdge& tag) {
 }
 
 }  // namespace
+
+void rows::lose_edges_beyond(Tags t, int most) {
+  std::map<VertexId, int> count;
+  std::erase_if(t.edges, [&](const SharpEdge& e) {
+    const bool too_many = count[e.a] >= most || count[e.b] >= most;
+    if (!too_many) ++count[e.a], ++count[e.b];
+    return too_many;
+  });
+}
 
 std::vector<Change> faults_of_tags() {
   return {

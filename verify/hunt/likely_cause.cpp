@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "data/numeral.h"
 #include "verify/evidence/cells.h"
 #include "verify/relations/relations.h"
 
@@ -37,13 +38,6 @@ Kind kind_of(const ControlVertex& at) {
   return sharp == 0 ? Kind::kInner : sharp == 1 ? Kind::kDart : Kind::kCrease;
 }
 
-// "3/32"
-double number_of(const std::string& fraction) {
-  const std::size_t slash = fraction.find('/');
-  const double n = std::strtod(fraction.c_str(), nullptr);
-  return slash == std::string::npos ? n : n / std::strtod(fraction.c_str() + slash + 1, nullptr);
-}
-
 // How near the place is to each corner, 0 to 1; with the middle of a face that is cut into quads behind them.
 // All alike if the finding names no place.
 std::vector<double> nearness(const Result& finding, std::size_t corners, bool loop) {
@@ -51,7 +45,7 @@ std::vector<double> nearness(const Result& finding, std::size_t corners, bool lo
   std::vector<double> near(corners + (cut ? 1 : 0), 0);
   const Witness& w = *finding.witness;
   if (w.l1.empty() || w.l2.empty()) return near;
-  const double u = number_of(w.l1), v = number_of(w.l2);
+  const double u = data::parse<double>(w.l1), v = data::parse<double>(w.l2);
   if (loop) return {1 - u - v, u, v};
   if (!cut) return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
   near[static_cast<std::size_t>(std::max(w.corner, 0)) % corners] = (1 - u) * (1 - v);

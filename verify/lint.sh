@@ -28,7 +28,7 @@ cppcheck --quiet --std=c++20 --language=c++ --enable=warning,portability --error
 cmake --preset release -DBUILD_TESTING=ON >/dev/null
 folders='data|reference|fast|verify|bench'
 [[ ${1:-} == --libraries ]] && folders='data|reference|fast'
-mapfile -t sources < <(git ls-files '*.cpp' ':!*_test.cpp' ':!*_fuzz.cpp' ':!verify/package/consumers' \
+mapfile -t sources < <(git ls-files '*.cpp' ':!*_test.cpp' ':!*_fuzz.cpp' ':!verify/package/test_package' \
   ':!verify/subject/examples' | grep -E "^($folders)/")
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" \
   clang-tidy -quiet -p build/release -extra-arg=-Wno-unknown-warning-option 2>/dev/null

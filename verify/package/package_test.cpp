@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConsumers = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/package/consumers";
+const fs::path kConsumers = fs::path(LIMITCHECK_SOURCE_DIR) / "verify/package/test_package";
 
 using Package = InstalledTest;
 using DebianPackage = InstalledTest;

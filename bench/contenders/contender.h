@@ -2,6 +2,7 @@
 // The routes from a control mesh to limit points that the throughput bench compares, all behind one class.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,6 +16,17 @@
 #include "data/control_mesh.h"
 
 namespace limitcheck::bench {
+
+/// What the libraries that evaluate points fill.
+struct LimitPoint {
+  float position[3], normal[3];
+};
+inline void set_normal(const float* du, const float* dv, LimitPoint& point) {
+  const float n[3] = {du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
+                      du[0] * dv[1] - du[1] * dv[0]};
+  const float scale = 1 / std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int c = 0; c < 3; ++c) point.normal[c] = n[c] * scale;
+}
 
 /// One mesh at one depth made ready by the constructor: what can be prepared once is prepared there.
 class Contender {

@@ -2,26 +2,15 @@
 // What the OpenSubdiv contenders share. Private to them.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "bench/contenders/contender.h"
 #include "data/scheme.h"
 #include "verify/peers/opensubdiv_mesh.h"
 
 namespace limitcheck::bench {
-
-struct LimitPoint {
-  float position[3], normal[3];
-};
-
-inline void set_normal(const float* du, const float* dv, LimitPoint& point) {
-  const float n[3] = {du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
-                      du[0] * dv[1] - du[1] * dv[0]};
-  const float scale = 1 / std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  for (int c = 0; c < 3; ++c) point.normal[c] = n[c] * scale;
-}
 
 /// The control mesh as OpenSubdiv takes it.
 class OpenSubdivMesh {

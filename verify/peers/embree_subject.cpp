@@ -3,8 +3,7 @@
 // first derivatives. Its documentation promises no accuracy; verify/subject/README.md says what was
 // measured.
 //
-// Debian's build asserts, and an assertion ends the process: on the fourth float of a vertex, which it
-// reads as 16 bytes, and on the sizes of its arrays. So vertices are padded, and what it has no room for is
+// Debian's build asserts on the sizes of its arrays, too (verify/peers/embree_geometry.h): what it has no room for is
 // refused.
 //
 // Sharp edges and vertices: an infinite sharpness is an infinite float. There is no choice of creasing: where
@@ -13,34 +12,23 @@
 //
 // Channels are attributes with topologies of their own, whose modes are four of the six rules: corners-plus1 and
 // corners-plus2 it does not have.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "data/sharpness.h"
+#include "verify/peers/embree_geometry.h"
 #include "verify/peers/evaluated_faces.h"
 #include "verify/subject/registry.h"
 
 namespace {
 
 using namespace limitcheck::verify;
-
-template <auto release>
-struct Release {
-  void operator()(auto* of) const { release(of); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, Release<rtcReleaseDevice>>;
-using Scene = std::unique_ptr<RTCSceneTy, Release<rtcReleaseScene>>;
-using Geometry = std::unique_ptr<RTCGeometryTy, Release<rtcReleaseGeometry>>;
 
 // One face after another.
 class FaceOfGeometry {
@@ -85,33 +73,8 @@ class EmbreeSubject {
     return result;
   }
 
-  EmbreeSubject(const lc_mesh& mesh, Options&) : mesh_(mesh) {
-    const std::vector<Ring> rings = rings_of(mesh.corners, mesh.vertex_count);
-    device_.reset(rtcNewDevice("threads=1"));
-    if (device_ == nullptr) throw SubjectError(LC_FAILED, "Embree makes no device");
-    geometry_.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SUBDIVISION));
-    auto* const position =
-        buffer<std::array<float, 4>>(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertex_count);
-    for (std::int64_t v = 0; v < mesh.vertex_count; ++v) {
-      position[v] = {};
-      std::copy_n(mesh.positions + 3 * v, 3, position[v].begin());
-    }
-    std::copy_n(mesh.corners, mesh.corner_count,
-                buffer<std::uint32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, mesh.corner_count));
-    std::copy_n(mesh.face_sizes, mesh.face_count,
-                buffer<std::uint32_t>(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, mesh.face_count));
-    hand_over_sharpness(rings);
-    rtcSetGeometryTopologyCount(geometry_.get(), 1 + static_cast<unsigned>(mesh.channel_count));
-    rtcSetGeometryVertexAttributeCount(geometry_.get(), static_cast<unsigned>(mesh.channel_count));
-    for (unsigned c = 0; c < mesh.channel_count; ++c) hand_over_channel(c);
-    rtcCommitGeometry(geometry_.get());
-    // It joins the faces when a scene is committed.
-    scene_.reset(rtcNewScene(device_.get()));
-    rtcAttachGeometry(scene_.get(), geometry_.get());
-    rtcCommitScene(scene_.get());
-    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
-      throw SubjectError(LC_FAILED, "Embree reports error " + std::to_string(error));
-  }
+  EmbreeSubject(const lc_mesh& mesh, Options&)
+      : EmbreeSubject(mesh, rings_of(mesh, mesh.corners, mesh.vertex_count)) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     const FacePatterns patterns(mesh_, request, [](int) { return FacePattern{}; });
@@ -125,12 +88,12 @@ class EmbreeSubject {
     std::set<std::int32_t> neighbours = {};
   };
 
-  template <class T>
-  T* buffer(RTCBufferType type, RTCFormat format, std::int64_t count, unsigned slot = 0) {
-    void* const memory = rtcSetNewGeometryBuffer(geometry_.get(), type, slot, format, sizeof(T),
-                                                 static_cast<std::size_t>(count));
-    if (memory == nullptr) throw SubjectError(LC_FAILED, "Embree makes no buffer");
-    return static_cast<T*>(memory);
+  EmbreeSubject(const lc_mesh& mesh, const std::vector<Ring>& rings) : mesh_(mesh), geometry_(mesh) {
+    hand_over_sharpness(rings);
+    rtcSetGeometryTopologyCount(geometry_.get(), 1 + static_cast<unsigned>(mesh.channel_count));
+    rtcSetGeometryVertexAttributeCount(geometry_.get(), static_cast<unsigned>(mesh.channel_count));
+    for (unsigned c = 0; c < mesh.channel_count; ++c) hand_over_channel(c);
+    geometry_.commit();
   }
 
   // Its mode PIN_CORNERS holds boundary vertices of one face in one topology; sharp vertices are those of all.
@@ -141,14 +104,15 @@ class EmbreeSubject {
     };
     if (const std::int64_t count = mesh_.sharp_edge_count; count > 0) {
       const lc_sharp_edge* const edges = mesh_.sharp_edges;
-      std::transform(
-          edges, edges + count,
-          buffer<std::array<std::uint32_t, 2>>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX, RTC_FORMAT_UINT2, count),
-          [](const lc_sharp_edge& e) {
-            return std::array{static_cast<std::uint32_t>(e.a), static_cast<std::uint32_t>(e.b)};
-          });
       std::transform(edges, edges + count,
-                     buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count), weight);
+                     geometry_.buffer<std::array<std::uint32_t, 2>>(RTC_BUFFER_TYPE_EDGE_CREASE_INDEX,
+                                                                    RTC_FORMAT_UINT2, count),
+                     [](const lc_sharp_edge& e) {
+                       return std::array{static_cast<std::uint32_t>(e.a), static_cast<std::uint32_t>(e.b)};
+                     });
+      std::transform(edges, edges + count,
+                     geometry_.buffer<float>(RTC_BUFFER_TYPE_EDGE_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count),
+                     weight);
     }
     std::map<std::uint32_t, float> vertices;
     for (std::int64_t k = 0; k < mesh_.sharp_vertex_count; ++k)
@@ -157,8 +121,8 @@ class EmbreeSubject {
       if (rings[v].faces == 1) vertices[v] = kHeld;
     if (vertices.empty()) return;
     const auto count = std::ssize(vertices);
-    auto* at = buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT, count);
-    auto* by = buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count);
+    auto* at = geometry_.buffer<std::uint32_t>(RTC_BUFFER_TYPE_VERTEX_CREASE_INDEX, RTC_FORMAT_UINT, count);
+    auto* by = geometry_.buffer<float>(RTC_BUFFER_TYPE_VERTEX_CREASE_WEIGHT, RTC_FORMAT_FLOAT, count);
     for (const auto& [v, sharpness] : vertices) *at++ = v, *by++ = sharpness;
   }
 
@@ -171,11 +135,12 @@ class EmbreeSubject {
       corners.push_back(
           values.try_emplace({mesh_.corners[k], channel.corners[k]}, static_cast<std::int32_t>(values.size()))
               .first->second);
-    (void)rings_of(corners.data(), std::ssize(values));
+    (void)rings_of(mesh_, corners.data(), std::ssize(values));
     std::copy(corners.begin(), corners.end(),
-              buffer<std::int32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, mesh_.corner_count, number + 1));
-    auto* const to = buffer<std::array<float, 4>>(RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, RTC_FORMAT_FLOAT4,
-                                                  std::ssize(values), number);
+              geometry_.buffer<std::int32_t>(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, mesh_.corner_count,
+                                             number + 1));
+    auto* const to = geometry_.buffer<std::array<float, 4>>(RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE,
+                                                            RTC_FORMAT_FLOAT4, std::ssize(values), number);
     for (const auto& [at, value] : values) {
       to[value] = {};
       std::copy_n(channel.values + std::int64_t{at[1]} * channel.components, channel.components,
@@ -192,11 +157,11 @@ class EmbreeSubject {
 
   // Its rings are arrays of 64 faces and 128 points; Debian's library asserts that they suffice. A face of n
   // corners adds n - 2 points, and the boundary one more and a face with a point that stand for the outside.
-  std::vector<Ring> rings_of(const std::int32_t* corners, std::int64_t vertices) const {
+  static std::vector<Ring> rings_of(const lc_mesh& mesh, const std::int32_t* corners, std::int64_t vertices) {
     constexpr int kMostCorners = 15, kMostFaces = 64, kMostPoints = 128;
     std::vector<Ring> rings(static_cast<std::size_t>(vertices));
-    for (std::int64_t f = 0; f < mesh_.face_count; corners += mesh_.face_sizes[f++]) {
-      const int n = mesh_.face_sizes[f];
+    for (std::int64_t f = 0; f < mesh.face_count; corners += mesh.face_sizes[f++]) {
+      const int n = mesh.face_sizes[f];
       if (n > kMostCorners)
         throw SubjectError(LC_NOT_SUPPORTED, "Embree has no faces of more than 15 corners");
       for (int k = 0; k < n; ++k) {
@@ -216,9 +181,7 @@ class EmbreeSubject {
   }
 
   const lc_mesh mesh_;
-  Device device_;
-  Geometry geometry_;
-  Scene scene_;
+  EmbreeGeometry geometry_;
 };
 
 }  // namespace

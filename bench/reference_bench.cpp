@@ -4,7 +4,7 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/scheme.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
 #include "reference/surface/surface.h"

@@ -10,7 +10,7 @@
 #include "bench/contenders/contender.h"
 #include "fast/plan/pairing.h"
 #include "fast/window/sliding_window.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 
 namespace limitcheck::bench {
 

@@ -13,11 +13,9 @@
 
 #include "data/generators/polygon_meshes.h"
 #include "data/splitmix64.h"
-#include "reference/catmull_clark/naive.h"
 #include "reference/catmull_clark/patch.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/stam.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/catmull_clark/vertex_limit.h"
 #include "reference/loop/refine.h"
 #include "reference/number/number_exact.h"

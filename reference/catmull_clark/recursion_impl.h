@@ -9,11 +9,9 @@
 #include <utility>
 
 #include "data/error.h"
-#include "reference/catmull_clark/naive.h"
 #include "reference/catmull_clark/patch.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/refine.h"
-#include "reference/catmull_clark/refined_mesh.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/catmull_clark/vertex_limit.h"
 #include "reference/point/parameter_exact.h"
 

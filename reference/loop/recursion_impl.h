@@ -11,12 +11,11 @@
 #include <utility>
 
 #include "data/error.h"
-#include "reference/loop/naive.h"
 #include "reference/loop/patch.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/ringed_face.h"
 #include "reference/loop/sub_faces.h"
-#include "reference/loop/subdivision_evaluator.h"
 #include "reference/loop/vertex_limit.h"
 #include "reference/point/parameter_exact.h"
 

@@ -8,10 +8,9 @@
 
 #include "data/splitmix64.h"
 #include "data/test_meshes.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
-#include "reference/loop/subdivision_evaluator.h"
 #include "reference/loop/vertex_limit.h"
 #include "reference/number/number_exact.h"
 

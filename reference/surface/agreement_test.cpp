@@ -7,10 +7,9 @@
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
-#include "reference/loop/subdivision_evaluator.h"
 
 namespace limitcheck::reference {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "data/generators/random_mesh.h"
 #include "data/shapes.h"
-#include "reference/loop/subdivision_evaluator.h"
+#include "reference/loop/recursion.h"
 #include "reference/number/number_exact.h"
 #include "reference/surface/certified.h"
 

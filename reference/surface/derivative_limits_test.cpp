@@ -16,11 +16,11 @@
 
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/stam.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
-#include "reference/loop/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
 #include "reference/surface/certified.h"
 

@@ -8,9 +8,9 @@
 
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
-#include "reference/loop/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
 #include "reference/point/normal.h"
 

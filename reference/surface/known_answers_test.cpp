@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "data/test_support/known_answers.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/stam.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/loop/basis.h"
 #include "reference/loop/masks.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
-#include "reference/loop/subdivision_evaluator.h"
 #include "reference/loop/vertex_limit.h"
 #include "reference/number/number_exact.h"
 #include "reference/surface/certified.h"

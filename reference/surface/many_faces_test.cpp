@@ -13,16 +13,15 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/stam_impl.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/recursion_impl.h"
 #include "reference/loop/refine_impl.h"
 #include "reference/loop/ringed_face.h"
 #include "reference/loop/stam.h"
 #include "reference/loop/stam_impl.h"
-#include "reference/loop/subdivision_evaluator.h"
 #include "reference/number/number_exact.h"
 
 namespace limitcheck::reference {

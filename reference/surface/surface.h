@@ -7,7 +7,7 @@
 
 #include "data/control_mesh.h"
 #include "data/scheme.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/stam.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"

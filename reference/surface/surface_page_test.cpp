@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "data/io/read.h"
-#include "reference/catmull_clark/refined_mesh.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/mesh/sharpness.h"
 #include "reference/number/number_exact.h"

@@ -25,7 +25,7 @@
 #include "fast/plan/depth.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "verify/host/host.h"
 #include "verify/picture/canvas.h"

@@ -12,7 +12,7 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 
 namespace limitcheck::fast {
 

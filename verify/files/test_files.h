@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "data/splitmix64.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/surface/surface.h"
 #include "verify/files/audit_files.h"

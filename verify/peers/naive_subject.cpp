@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of the paper's section 4 in double, with Loop's rules (reference/loop/naive.h) or
-// Catmull and Clark's (reference/catmull_clark/naive.h). It delivers single triangles and quads and rounds
+// The recursive subdivider of the paper's section 4 in double, with Loop's rules (reference/loop/recursion.h) or
+// Catmull and Clark's (reference/catmull_clark/recursion.h). It delivers single triangles and quads and rounds
 // differently in each. Of the values of one point the first in the order of their bits is taken, so that
 // neither the triangles of a face nor faces of one depth have cracks of one ulp. Faces share no vertices. A
 // quad is cut along its diagonal from (0, 0). [C18, C21]
@@ -18,8 +18,8 @@
 #include <variant>
 #include <vector>
 
-#include "reference/catmull_clark/naive.h"
-#include "reference/loop/naive.h"
+#include "reference/catmull_clark/recursion.h"
+#include "reference/loop/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/surface/channel.h"
 #include "verify/peers/evaluated_faces.h"

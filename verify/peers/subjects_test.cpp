@@ -14,7 +14,7 @@
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
-#include "reference/loop/naive.h"
+#include "reference/loop/recursion.h"
 #include "reference/surface/surface.h"
 #include "verify/peers/test_lattice.h"
 #include "verify/row/bounds.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "data/control_mesh.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "verify/peers/opensubdiv_mesh.h"
 

@@ -9,7 +9,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "verify/evidence/vector.h"
 #include "verify/projection/domain.h"
 #include "verify/projection/limit_surface.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/mesh/sharpness.h"
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/ringed_quad.h"
 #include "reference/loop/ringed_face.h"
 #include "reference/mesh/cut_mesh.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "reference/mesh/cut_mesh.h"
 #include "reference/mesh/topology.h"

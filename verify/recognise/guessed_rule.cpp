@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "verify/subject/face_domain.h"
 

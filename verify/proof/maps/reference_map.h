@@ -16,8 +16,8 @@
 
 #include "data/control_mesh.h"
 #include "fast/plan/pairing.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/catmull_clark/stam.h"
-#include "reference/catmull_clark/subdivision_evaluator.h"
 #include "reference/loop/recursion_impl.h"
 #include "reference/loop/refine_impl.h"
 #include "reference/loop/stam.h"

@@ -6,7 +6,7 @@
 
 #include <limitcheck/data/io/read.h>
 #include <limitcheck/data/shapes.h>
-#include <limitcheck/reference/loop/naive.h>
+#include <limitcheck/reference/loop/recursion.h>
 #include <limitcheck/reference/loop/stam.h>
 #include <limitcheck/reference/surface/certified.h>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The recursive subdivider of section 4, as the paper lists it: every face by itself, four sub-faces at each
-// level down to the depth, limit point and normal at the leaves. Faces share nothing, so most points are
-// computed several times. Near semi-sharp tags a face is refined together with its neighbours, until they are
-// gone; around a vertex of very many faces its ring is worked out once for all of them, with the same bits.   [C18]
+// The two that subdivide one face, again and again: the paper's recursive subdivider, and the points of stam.h without
+// eigenvalues. They share only the masks and the basis with stam.h.
 #pragma once
 
 #include <array>
@@ -16,6 +14,7 @@
 #include "reference/loop/masks.h"
 #include "reference/mesh/sharp_tags.h"
 #include "reference/mesh/topology.h"
+#include "reference/point/parameter.h"
 #include "reference/point/surface_point.h"
 
 namespace limitcheck::reference {
@@ -44,6 +43,10 @@ struct LeafCorner {
 template <class N>
 using LeafTriangle = std::array<LeafCorner<N>, 3>;
 
+/// The recursive subdivider of section 4, as the paper lists it: every face by itself, four sub-faces at each
+/// level down to the depth, limit point and normal at the leaves. Faces share nothing, so most points are
+/// computed several times. Near semi-sharp tags a face is refined together with its neighbours, until they are
+/// gone; around a vertex of very many faces its ring is worked out once for all of them, with the same bits.   [C18]
 /// Built for double, Decimal50, Decimal100.
 template <class N>
 class NaiveSubdivider {
@@ -64,6 +67,29 @@ class NaiveSubdivider {
  private:
   std::shared_ptr<const CutMesh<N>> mesh_;
   std::shared_ptr<const std::map<std::int32_t, SteppedFan<Vec3<N>>>> fans_;  // of vertices of many faces
+  Weights weights_;
+};
+
+/// Subdivides the face and its ring, always into the sub-face that holds the point, until that is regular (a
+/// box spline patch, Appendix A) or the point is its corner (limit masks). The number of steps grows with
+/// -log2 of the distance to the extraordinary vertex, and so does the rounding error of the derivatives.
+/// Built for double, Decimal50, Decimal100.
+///   threads   any number may evaluate at once
+template <class N>
+class SubdivisionEvaluator {
+ public:
+  /// As StamEvaluator.
+  explicit SubdivisionEvaluator(const data::ControlMesh& mesh, Weights weights = Weights::kLoop);
+  SubdivisionEvaluator(std::vector<Vec3<N>> positions, const std::vector<Triangle>& triangles,
+                       Weights weights = Weights::kLoop, const SharpTags& tags = {});
+
+  int face_count() const;
+  /// As StamEvaluator::evaluate; parameters are followed exactly, whatever they are.
+  SurfacePoint<N> evaluate(int face, const Parameter& l1, const Parameter& l2,
+                           Derivatives order = Derivatives::kSecond) const;
+
+ private:
+  std::shared_ptr<const CutMesh<N>> mesh_;
   Weights weights_;
 };
 

@@ -122,7 +122,7 @@ struct CornerPlace {
 ///   k          which corner of the quad it is
 ///   halved     whether the face's parameters go over two quads on each side
 template <class N>
-SurfacePoint<N> extraordinary_corner(const CornerLimit<N>& limit, const CornerPlace& corner, std::size_t k,
+SurfacePoint<N> extraordinary_corner(const VertexLimit<N>& limit, const CornerPlace& corner, std::size_t k,
                                      bool halved, Derivatives order) {
   SurfacePoint<N> result;
   result.at_corner = true;

@@ -26,14 +26,6 @@ namespace limitcheck::reference::catmull_clark {
 template <class N>
 struct QuadMesh;
 
-/// A corner of a leaf: lattice point (i, j) of the quad.
-template <class N>
-struct LeafCorner {
-  Vec3<N> position, normal;
-  NormalKind normal_kind;
-  std::int32_t i, j;
-};
-
 /// Counter-clockwise like its control face.
 template <class N>
 using LeafQuad = std::array<LeafCorner<N>, 4>;
@@ -87,11 +79,7 @@ class RefinedMesh {
 
   /// Limit positions and unit normals of all vertices; at depth 0 of a mesh with other faces than quads, too.
   /// Of a vertex on a sharp edge, which has a normal for each side, that of the first face in its ring.
-  struct Limits {
-    std::vector<Vec3<N>> positions, normals;
-    std::vector<NormalKind> kinds;
-  };
-  Limits limits() const;
+  VertexLimits<N> limits() const;
 
  private:
   data::Faces given_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Definitions behind naive.h, refined_mesh.h and subdivision_evaluator.h, all that subdivide, for the .cpp files
-// that instantiate them.
+// Definitions behind recursion.h, for the .cpp files that instantiate them.
 #pragma once
 
 #include <algorithm>
@@ -36,9 +35,9 @@ void subdivide(const RingedQuad<Vec3<N>>& quad, int depth, std::int32_t i, std::
   if (depth == 0) {
     LeafQuad<N> leaf;
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto& c = quad.corner[k];
-      const Normal<N> normal = limit_normal(c, limit_tangents(c));
-      leaf[k] = {limit_position(c), normal.direction, normal.kind, i + kCorners[k][0], j + kCorners[k][1]};
+      const VertexLimit<N> limit = limit_of(quad.corner[k]);
+      leaf[k] = {limit.position, limit.normal.direction, limit.normal.kind, i + kCorners[k][0],
+                 j + kCorners[k][1]};
     }
     emit(leaf);
     return;
@@ -54,13 +53,10 @@ void subdivide(const RingedQuad<Vec3<N>>& quad, int depth, std::int32_t i, std::
 template <class N>
 void subdivide_tagged(TaggedMesh<N> near, int depth, std::int32_t i, std::int32_t j,
                       const std::function<void(const LeafQuad<N>&)>& emit) {
-  const auto settled = [](const TaggedMesh<N>& mesh) {
-    return !mesh.sharpness.needs_a_step(mesh.topology)[0];
-  };
   const auto stepped = [](const TaggedMesh<N>& mesh) {
     return refine_once(mesh, data::TriangleRule::kCatmark);
   };
-  if (settled(near)) return subdivide<N>(ringed(QuadMesh<N>(std::move(near)), 0), depth, i, j, emit);
+  if (near.is_settled(0)) return subdivide<N>(ringed(QuadMesh<N>(std::move(near)), 0), depth, i, j, emit);
   if (depth > 0) {
     const TaggedMesh<N> next = stepped(near);
     const std::int32_t half = 1 << (depth - 1);
@@ -72,7 +68,7 @@ void subdivide_tagged(TaggedMesh<N> near, int depth, std::int32_t i, std::int32_
   LeafQuad<N> leaf;
   for (std::size_t k = 0; k < 4; ++k) {
     TaggedMesh<N> at_corner = near;  // a quad's sub-quad at corner k has that corner for its own number k
-    while (!settled(at_corner)) at_corner = stepped(at_corner).around(k);
+    while (!at_corner.is_settled(0)) at_corner = stepped(at_corner).around(k);
     subdivide<N>(ringed(QuadMesh<N>(std::move(at_corner)), 0), 0, i, j,
                  [&](const LeafQuad<N>& l) { leaf[k] = l[k]; });
   }
@@ -174,14 +170,14 @@ std::int32_t RefinedMesh<N>::vertex(std::size_t face, std::size_t corner, int i,
 }
 
 template <class N>
-typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
+VertexLimits<N> RefinedMesh<N>::limits() const {
   bool only_quads = true;
   for (std::size_t f = 0; f < topology_.faces().size(); ++f)
     only_quads = only_quads && topology_.faces()[f].size() == 4;
   if (!only_quads) {  // the vertices come first after one more step, and have the same limits
     RefinedMesh finer = *this;
     finer.refine();
-    Limits all = finer.limits();
+    VertexLimits<N> all = finer.limits();
     all.positions.resize(positions_.size());
     all.normals.resize(positions_.size());
     all.kinds.resize(positions_.size());
@@ -210,19 +206,15 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
     return gathered(near.topology, near.positions, static_cast<std::size_t>(near.topology.faces()[0][k]),
                     near.states);
   };
-  Limits limits;
+  VertexLimits<N> limits;
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     const auto corner = ring_of(v);
     if (corner.faces.empty()) {  // no face has it
-      limits.positions.push_back(positions_[v]);
-      limits.normals.push_back({N(0), N(0), N(1)});
-      limits.kinds.push_back(NormalKind::kArbitrary);
+      limits.add(positions_[v], {N(0), N(0), N(1)}, NormalKind::kArbitrary);
       continue;
     }
-    const Normal<N> normal = limit_normal(corner, limit_tangents(corner));
-    limits.positions.push_back(limit_position(corner));
-    limits.normals.push_back(normal.direction);
-    limits.kinds.push_back(normal.kind);
+    const VertexLimit<N> limit = limit_of(corner);
+    limits.add(limit.position, limit.normal.direction, limit.normal.kind);
   }
   return limits;
 }

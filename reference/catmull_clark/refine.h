@@ -163,7 +163,7 @@ std::size_t descend(P& u, P& v) {
 template <class N, class P>
 QuadMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t quad, P& u, P& v, long& steps) {
   TaggedMesh<N> near = mesh.around(quad);
-  for (steps = 0; near.sharpness.needs_a_step(near.topology)[0]; ++steps)
+  for (steps = 0; !near.is_settled(0); ++steps)
     near = refine_once(near, data::TriangleRule::kCatmark).around(descend(u, v));
   return QuadMesh<N>(std::move(near));
 }

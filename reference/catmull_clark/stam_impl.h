@@ -280,7 +280,7 @@ class StamData {
   std::map<std::pair<int, VertexState>, InteriorKind<N>> interior_;
   std::map<std::tuple<int, bool, VertexState>, SteppedRingKind<N>> stepped_;
   std::vector<TwoRing<N>> rings_;
-  std::map<std::int32_t, CornerLimit<N>> limit_of_;  ///< of vertices of many faces, each of which may ask
+  std::map<std::int32_t, VertexLimit<N>> limit_of_;  ///< of vertices of many faces, each of which may ask
 };
 
 }  // namespace detail

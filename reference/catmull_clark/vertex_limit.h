@@ -73,16 +73,9 @@ Normal<N> limit_normal(const RingedCorner<Vec3<N>>& corner, const Tangents<N>& t
   return unit_normal(Tangents<N>{}, sum_of(corner));
 }
 
-/// Where a corner's limit lies and which way it faces. Without tangents and normal in exact rationals.
 template <class N>
-struct CornerLimit {
-  Vec3<N> position;
-  Tangents<N> tangents;
-  Normal<N> normal;
-};
-template <class N>
-CornerLimit<N> limit_of(const RingedCorner<Vec3<N>>& corner) {
-  CornerLimit<N> limit{limit_position(corner), {}, {}};
+VertexLimit<N> limit_of(const RingedCorner<Vec3<N>>& corner) {
+  VertexLimit<N> limit{limit_position(corner), {}, {}};
   if constexpr (kHasNormals<N>) {
     limit.tangents = limit_tangents(corner);
     limit.normal = limit_normal(corner, limit.tangents);

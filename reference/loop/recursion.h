@@ -31,15 +31,7 @@ struct NaiveError {
   static constexpr double kNormal = 2e-13;    ///< unit normal
 };
 
-/// A corner of a leaf. Lattice point (i, j): l1 = i / 2^depth, l2 = j / 2^depth on the control face.
-template <class N>
-struct LeafCorner {
-  Vec3<N> position, normal;
-  NormalKind normal_kind;
-  std::int32_t i, j;
-};
-
-/// Counter-clockwise like its control face.
+/// Counter-clockwise like its control face, whose lattice points have l1 = i / 2^depth, l2 = j / 2^depth.
 template <class N>
 using LeafTriangle = std::array<LeafCorner<N>, 3>;
 

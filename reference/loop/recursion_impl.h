@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Definitions behind naive.h and subdivision_evaluator.h, the two that subdivide one face, for the .cpp files that
-// instantiate them.
+// Definitions behind recursion.h, for the .cpp files that instantiate them.
 #pragma once
 
 #include <array>
@@ -58,14 +57,11 @@ void subdivide(const RingedFace<Vec3<N>>& face, int depth, const std::array<Latt
 template <class N>
 void subdivide_tagged(TaggedMesh<N> near, int depth, const std::array<LatticePoint, 3>& lattice,
                       Weights weights, const std::function<void(const LeafTriangle<N>&)>& emit) {
-  const auto settled = [](const TaggedMesh<N>& mesh) {
-    return !mesh.sharpness.needs_a_step(mesh.topology)[0];
-  };
   const auto ringed = [&](TaggedMesh<N> mesh) {
     const CutMesh<N> cut(std::move(mesh));
     return gather_triangle<N>(cut.topology, cut.positions, 0, cut.states);
   };
-  if (settled(near)) return subdivide<N>(ringed(std::move(near)), depth, lattice, weights, emit);
+  if (near.is_settled(0)) return subdivide<N>(ringed(std::move(near)), depth, lattice, weights, emit);
   if (depth > 0) {
     const TaggedMesh<N> next = refine_once(near, weights);
     for (std::size_t k = 0; k < 4; ++k)
@@ -76,7 +72,7 @@ void subdivide_tagged(TaggedMesh<N> near, int depth, const std::array<LatticePoi
   for (std::size_t k = 0; k < 3; ++k) {
     TaggedMesh<N> at_corner = near;  // the corner is number k at first, and number 0 of the sub-face there
     std::size_t at = k;
-    for (; !settled(at_corner); at = 0) at_corner = refine_once(at_corner, weights).around(at);
+    for (; !at_corner.is_settled(0); at = 0) at_corner = refine_once(at_corner, weights).around(at);
     subdivide<N>(ringed(std::move(at_corner)), 0, {}, weights,
                  [&](const LeafTriangle<N>& l) { leaf[k] = l[at]; });
     leaf[k].i = lattice[k][0], leaf[k].j = lattice[k][1];

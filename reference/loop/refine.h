@@ -62,11 +62,7 @@ class RefinedMesh {
   /// Limit positions and unit normals of all vertices; of a vertex on a sharp edge, which has a normal for
   /// each side, that of the first face in its ring.
   /// [C14, D1, D2, D12]
-  struct Limits {
-    std::vector<Vec3<N>> positions, normals;
-    std::vector<NormalKind> kinds;
-  };
-  Limits limits() const;
+  VertexLimits<N> limits() const;
 
  private:
   /// The triangle (i, j) (i+1, j) (i, j+1).

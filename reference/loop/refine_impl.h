@@ -97,11 +97,8 @@ void RefinedMesh<N>::refine() {
 }
 
 template <class N>
-typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
-  Limits result;
-  result.positions.reserve(positions_.size());
-  result.normals.reserve(positions_.size());
-  result.kinds.reserve(positions_.size());
+VertexLimits<N> RefinedMesh<N>::limits() const {
+  VertexLimits<N> result;
   const auto limit_at = [&](const Topology& topology, const std::vector<Vec3<N>>& positions, std::int32_t v,
                             std::span<const VertexState> states) {
     const Sector sector = topology.sector(v);
@@ -123,15 +120,11 @@ typename RefinedMesh<N>::Limits RefinedMesh<N>::limits() const {
   };
   for (std::size_t v = 0; v < positions_.size(); ++v) {
     if (topology_.sector(static_cast<std::int32_t>(v)).faces.empty()) {
-      result.positions.push_back(positions_[v]);
-      result.normals.push_back({N(0), N(0), N(1)});
-      result.kinds.push_back(NormalKind::kArbitrary);
+      result.add(positions_[v], {N(0), N(0), N(1)}, NormalKind::kArbitrary);
       continue;
     }
     const VertexLimit<N> limit = limit_of(static_cast<std::int32_t>(v));
-    result.positions.push_back(limit.position);
-    result.normals.push_back(limit.normal.direction);
-    result.kinds.push_back(limit.normal.kind);
+    result.add(limit.position, limit.normal.direction, limit.normal.kind);
   }
   return result;
 }

@@ -79,7 +79,7 @@ template <class N, class P>
 CutMesh<N> settled_around(const TaggedMesh<N>& mesh, std::size_t face, Weights weights,
                           SubFacePath<P>& path) {
   TaggedMesh<N> near = mesh.around(face);
-  while (near.sharpness.needs_a_step(near.topology)[0])
+  while (!near.is_settled(0))
     near = refine_once(near, weights).around(static_cast<std::size_t>(path.descend()));
   return CutMesh<N>(std::move(near));
 }

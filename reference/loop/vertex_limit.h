@@ -41,14 +41,6 @@ void subdivide_ring(Vec3<N>& v, std::vector<Vec3<N>>& ring, bool on_boundary,
   v = vertex_point<N>(centre, old, on_boundary, state, weights);
 }
 
-/// Where the limit of a control vertex lies and which way it faces.
-template <class N>
-struct VertexLimit {
-  Vec3<N> position;
-  Tangents<N> tangents;
-  Normal<N> normal;
-};
-
 /// Limit of a vertex from its ring (masks.h); D12 decides about normals that fail: the area-weighted normal
 /// of the ring after one to three steps, else of the control ring, else (0, 0, 1).
 ///   error    in double a few ulp of the ring's largest coordinate for the position (see stam.h)

@@ -69,6 +69,8 @@ struct TaggedMesh {
     Sharpness sharp = sharpness.of_part(topology, local, faces, part.vertices);
     return {std::move(local), part.of(positions), std::move(sharp)};
   }
+  /// Whether a face needs no step before its surface can be said.
+  bool is_settled(std::size_t face) const { return !sharpness.needs_a_step(topology)[face]; }
   TaggedMesh around(std::size_t face) const {
     return around(std::vector<std::int32_t>{static_cast<std::int32_t>(face)});
   }

@@ -36,6 +36,14 @@ struct Normal {
   N condition{};  ///< see SurfacePoint::normal_condition
 };
 
+/// Where the limit of a vertex lies and which way it faces. Of quads without tangents and normal in exact rationals.
+template <class N>
+struct VertexLimit {
+  Vec3<N> position;
+  Tangents<N> tangents;
+  Normal<N> normal;
+};
+
 /// The vector times the power of two that brings its largest coordinate to [1, 2); zero stays zero.
 template <class N>
 Vec3<N> rescaled(const Vec3<N>& a) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "reference/number/vec3.h"
 
@@ -121,6 +122,25 @@ struct SurfacePoint {
   bool second_exist = false;
   bool at_corner = false;
   DerivativeLimits limits{};
+};
+
+/// Of the vertices of a refined mesh.
+template <class N>
+struct VertexLimits {
+  std::vector<Vec3<N>> positions, normals;  ///< normals of unit length
+  std::vector<NormalKind> kinds;
+
+  void add(const Vec3<N>& position, const Vec3<N>& normal, NormalKind kind) {
+    positions.push_back(position), normals.push_back(normal), kinds.push_back(kind);
+  }
+};
+
+/// A corner of a leaf of a recursive subdivider: lattice point (i, j) of its face.
+template <class N>
+struct LeafCorner {
+  Vec3<N> position, normal;
+  NormalKind normal_kind;
+  std::int32_t i, j;
 };
 
 /// Turns derivatives by the parameters of a piece into those by the parameters of the whole, whose sides are

@@ -20,15 +20,15 @@
   template void RefinedMesh<N>::refine();
 
 /// All of both schemes.
-#define LIMITCHECK_INSTANTIATE(N)                                 \
-  namespace limitcheck::reference {                               \
-  LIMITCHECK_INSTANTIATE_REFINE(N)                                \
-  template RefinedMesh<N>::Limits RefinedMesh<N>::limits() const; \
-  template class NaiveSubdivider<N>;                              \
-  template class StamEvaluator<N>;                                \
-  template class SubdivisionEvaluator<N>;                         \
-  template class catmull_clark::NaiveSubdivider<N>;               \
-  template class catmull_clark::RefinedMesh<N>;                   \
-  template class catmull_clark::StamEvaluator<N>;                 \
-  template class catmull_clark::SubdivisionEvaluator<N>;          \
+#define LIMITCHECK_INSTANTIATE(N)                          \
+  namespace limitcheck::reference {                        \
+  LIMITCHECK_INSTANTIATE_REFINE(N)                         \
+  template VertexLimits<N> RefinedMesh<N>::limits() const; \
+  template class NaiveSubdivider<N>;                       \
+  template class StamEvaluator<N>;                         \
+  template class SubdivisionEvaluator<N>;                  \
+  template class catmull_clark::NaiveSubdivider<N>;        \
+  template class catmull_clark::RefinedMesh<N>;            \
+  template class catmull_clark::StamEvaluator<N>;          \
+  template class catmull_clark::SubdivisionEvaluator<N>;   \
   }

@@ -86,7 +86,7 @@ class Expected {
 
   const data::ControlMesh& mesh_;
   Refined refined_;
-  typename Refined::Limits limits_;
+  reference::VertexLimits<double> limits_;
 };
 
 /// Each face is tiled by the lattice of its depth, -1 for none: each point is one vertex, each triangle one of Loop's

@@ -15,14 +15,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/cases/shapes.h"
 #include "bench/contenders/contender.h"
-#include "data/generators/bumpy_sphere.h"
 #include "fast/plan/printed_rules.h"
 #include "fast/stream/gather/rings.h"
 #include "fast/stream/stream_tessellator.h"
@@ -32,12 +31,8 @@ namespace {
 using namespace limitcheck;
 using benchmark::Counter;
 
-/// A hull of half a million points takes seconds, so each size is made once, when first needed.
-const data::ControlMesh& mesh_of(int faces) {
-  static std::map<int, data::ControlMesh> known;
-  const auto [at, fresh] = known.try_emplace(faces);
-  if (fresh) at->second = data::bumpy_sphere(faces, 1);
-  return at->second;
+const data::ControlMesh& bumpy(int faces) {
+  return bench::mesh_of({"bumpy", faces});
 }
 
 /// The camera in step i of a walk around the mesh, so many degrees a step.
@@ -69,7 +64,7 @@ void count(benchmark::State& state, double triangles, Counter::Flags flags) {
 
 template <class Output>
 void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
-  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), {.threads = threads});
+  fast::row_stream::StreamTessellator tessellator(bumpy(c.faces), {.threads = threads});
   fast::FrameStats stats;
   double triangles = 0;
   for (std::int64_t i = 0; i < 360; i += 30) tessellator.frame(c.strategy, turned(i, 1), out);
@@ -96,8 +91,8 @@ std::vector<std::vector<std::array<double, 3>>> breaths(const data::ControlMesh&
 
 /// `moves`: else the frames are as they would be if the points had not moved.
 void deforming(benchmark::State& state, const Case& c, bool moves, bool same_depths) {
-  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces), {.threads = 1});
-  const auto points = breaths(mesh_of(c.faces));
+  fast::row_stream::StreamTessellator tessellator(bumpy(c.faces), {.threads = 1});
+  const auto points = breaths(bumpy(c.faces));
   fast::PatchMesh<float> out;
   tessellator.frame(c.strategy, turned(0, 1), out);
   const std::vector<std::int32_t> depth = tessellator.last_pairing().depth;
@@ -118,10 +113,10 @@ void deforming(benchmark::State& state, const Case& c, bool moves, bool same_dep
 /// OpenSubdiv's Bfr, a surface for each face made and forgotten: the faces and depths of one of the frames,
 /// points alone.
 void bfr(benchmark::State& state, const Case& c) {
-  fast::row_stream::StreamTessellator tessellator(mesh_of(c.faces));
+  fast::row_stream::StreamTessellator tessellator(bumpy(c.faces));
   fast::PatchMesh<float> out;
   const fast::FrameStats stats = tessellator.frame(c.strategy, turned(0, 1), out);
-  const auto peer = bench::bfr_frame(mesh_of(c.faces), tessellator.last_pairing().depth);
+  const auto peer = bench::bfr_frame(bumpy(c.faces), tessellator.last_pairing().depth);
   for (auto _ : state) peer();
   count(state, static_cast<double>(stats.triangles), Counter::kIsIterationInvariantRate);
 }
@@ -139,7 +134,7 @@ void add_set_up(const std::string& name, Stage stage) {
   for (const int faces : {800, 4000, 100'000, 1'000'000})
     benchmark::RegisterBenchmark(
         (name + "/bumpy/faces:" + std::to_string(faces)).c_str(), [=](benchmark::State& state) {
-          const data::ControlMesh& mesh = mesh_of(faces);
+          const data::ControlMesh& mesh = bumpy(faces);
           const fast::Adjacency adjacency(mesh);
           const fast::DepthHeuristics heuristics(mesh, adjacency);
           const auto run = stage(mesh, adjacency, heuristics);

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "bench/build_identity.h"
 #include "bench/cases/tracked.h"
 
 // Highway's library measures this when it is loaded, by RDTSCP: valgrind says that there is such an instruction and, on a

@@ -14,7 +14,6 @@
 #include <string>
 #include <utility>
 
-#include "bench/build_identity.h"
 #include "bench/cases/tracked.h"
 
 namespace {

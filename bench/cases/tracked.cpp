@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/cases/tracked.h"
 
+#include <gnu/libc-version.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -200,6 +202,10 @@ Tracked frames_at_equal_error(const Subject& subject) {
 }
 
 }  // namespace
+
+std::string build_identity() {
+  return std::string(LIMITCHECK_COMPILER_ID) + "/glibc-" + gnu_get_libc_version() + "/" + LIMITCHECK_FLAGS;
+}
 
 std::vector<Tracked> tracked_cases() {
   std::vector<Tracked> list;

@@ -23,4 +23,8 @@ struct Tracked {
 /// n-gons; and speed at equal error (matched.h).
 std::vector<Tracked> tracked_cases();
 
+/// Identifies a build, since figures of different builds are not to be compared: compiler, C library, flags, as in
+/// "GNU-12.2.0/glibc-2.36/-O3 -DNDEBUG".
+std::string build_identity();
+
 }  // namespace limitcheck::bench

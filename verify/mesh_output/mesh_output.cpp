@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -14,6 +13,7 @@
 
 #include "data/error.h"
 #include "data/io/atomic_file.h"
+#include "data/io/whole_content.h"
 #include "fast/plan/depth.h"
 
 namespace limitcheck::verify {
@@ -210,9 +210,7 @@ struct Format {
 constexpr Format kFormats[]{{".ply", write_ply}, {".obj", write_obj}, {".glb", write_glb}};
 
 const Format& format_of(const Path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = data::io::lower_extension(file);
   for (const Format& format : kFormats)
     if (extension == format.extension) return format;
   throw data::InputError("FILE_UNKNOWN_FORMAT", file.string(), 0,

@@ -18,7 +18,6 @@
 #include "reference/mesh/sharpness.h"
 #include "reference/mesh/support.h"
 #include "reference/point/parameter_exact.h"
-#include "reference/surface/certify.h"
 #include "reference/surface/near_part.h"
 
 namespace limitcheck::reference {

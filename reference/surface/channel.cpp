@@ -11,7 +11,7 @@
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
 #include "reference/point/parameter_exact.h"
-#include "reference/surface/certify.h"
+#include "reference/surface/near_part.h"
 #include "reference/surface/surface.h"
 
 namespace limitcheck::reference {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "data/error.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 #include "reference/catmull_clark/recursion.h"

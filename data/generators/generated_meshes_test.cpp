@@ -13,7 +13,6 @@
 
 #include "data/error.h"
 #include "data/generators/every_neighbourhood.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/generators/star_meshes.h"

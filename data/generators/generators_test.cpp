@@ -8,9 +8,9 @@
 
 #include "data/error.h"
 #include "data/generators/bumpy_sphere.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/io/write.h"
 #include "data/shapes.h"
 #include "data/summary.h"

@@ -14,7 +14,6 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/channel_meshes.h"
 #include "data/generators/every_neighbourhood.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Changes of the faces of a mesh: tubes, edges turned (surgery.h), edges dissolved (mixed_mesh.h).
 #include "data/generators/surgery.h"
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <vector>
 
 #include "data/building_blocks.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/splitmix64.h"
 
 namespace limitcheck::data {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "data/control_mesh.h"
+#include "data/generators/random_mesh.h"
 
 namespace limitcheck::data {
 
@@ -18,5 +19,14 @@ ControlMesh with_handles(ControlMesh mesh, int count, std::uint64_t seed);
 /// number of corners, 3 .. n - 1. Sharp edges stay, and so do those whose ends would keep fewer than three
 /// faces, on the boundary one, and those that would join two neighbours twice.
 ControlMesh with_turned_edges(ControlMesh mesh, std::uint64_t seed);
+
+/// An irregular mesh of triangles, quads and larger faces, for fuzzing Catmull-Clark's scheme:
+/// random_mesh(seed, options) after about half of its inner edges were dissolved in a random order,
+/// so that two faces became one. An edge stays where the new face would name a vertex twice or have more than
+/// `most_corners` corners, where an inner vertex would keep fewer than 3 faces, and where a boundary vertex
+/// would keep none. Valid for Catmull-Clark's scheme; closed or open as random_mesh(seed) is.
+///   throws   InputError NAME_BAD_PARAMETER
+ControlMesh mixed_mesh(std::uint64_t seed, const RandomMeshOptions& options = {},
+                       std::size_t most_corners = 8);
 
 }  // namespace limitcheck::data

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "data/error.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/test_support/assertions.h"
 #include "fast/mesh/adjacency.h"
 #include "fast/mesh/cut_mesh.h"

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "data/error.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
+#include "data/generators/surgery.h"
 #include "fast/frame/crack_centre.h"
 #include "fast/frame/patch.h"
 #include "fast/test_support/exact_weld.h"

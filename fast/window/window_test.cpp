@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/numeral.h"
 #include "data/splitmix64.h"
 #include "data/test_support/known_answers.h"

@@ -10,9 +10,9 @@
 #include <filesystem>
 #include <string>
 
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/io/read.h"
 #include "data/test_support/assertions.h"
 #include "verify/files/test_files.h"

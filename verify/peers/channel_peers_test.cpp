@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "data/generators/channel_meshes.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "reference/channel/channel_mesh.h"
 #include "reference/channel/channel_step.h"
 #include "reference/surface/channel.h"

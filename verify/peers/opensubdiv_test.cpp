@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/named_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/random_mesh.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/io/read.h"
 #include "data/io/write.h"
 #include "data/shapes.h"

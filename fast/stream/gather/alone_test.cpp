@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "data/bounding_box.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/shapes.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/row_stream.h"

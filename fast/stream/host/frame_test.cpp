@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "data/error.h"
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 #include "fast/stream/stream_tessellator.h"

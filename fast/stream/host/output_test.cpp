@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "data/generators/mixed_mesh.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
+#include "data/generators/surgery.h"
 #include "fast/frame/stores.h"
 #include "fast/stream/kernel/output_targets.h"
 #include "fast/stream/row_stream.h"

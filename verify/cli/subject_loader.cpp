@@ -124,16 +124,22 @@ void take_mesh(const SubjectArguments& a, std::string& subject, std::vector<std:
 }
 
 SubjectLoader::SubjectLoader(SubjectArguments arguments) : arguments_(std::move(arguments)) {
-  verify::use_launcher();
+  verify::use_keeper(find_program("keeper"));
 }
 
 const lc_subject* SubjectLoader::remote(Kind kind, const std::string& what, bool in_turns) {
-  verify::IsolationSettings settings{arguments_.limits, {}, arguments_.witness_folder, in_turns};
-  if (kind == Kind::kLibrary) settings.worker = find_program("worker");
-  if (kind == Kind::kShader && (settings.worker = find_program("shader")).empty())
-    throw data::ArgumentError(
-        "limitcheck-shader, which runs shaders, is not where it belongs: beside limitcheck");
-  if (settings.worker.empty()) settings.worker = "/proc/self/exe";
+  verify::IsolationSettings settings{
+      .limits = arguments_.limits, .witness_folder = arguments_.witness_folder, .in_turns = in_turns};
+  const auto needed = [](const char* name, const char* what) {
+    const fs::path program = find_program(name);
+    if (program.empty())
+      throw data::ArgumentError(
+          fmt::format("limitcheck-{}, which {}, is not where it belongs: beside limitcheck", name, what));
+    return program;
+  };
+  (void)needed("keeper", "holds processes");
+  if (kind == Kind::kShader) settings.worker = needed("shader", "runs shaders");
+  if (kind == Kind::kLibrary) settings.worker = needed("worker", "serves libraries");
   remote_.push_back(std::make_unique<verify::RemoteSubject>(kind, what, settings));
   return &remote_.back()->subject();
 }

@@ -34,7 +34,6 @@ void take_mesh(const SubjectArguments& arguments, std::string& subject, std::vec
 /// The subjects of one audit; owns those that run in processes of their own.
 class SubjectLoader {
  public:
-  /// Forks (use_launcher()): make it before there is much in memory.
   explicit SubjectLoader(SubjectArguments arguments);
 
   /// NAME, FILE.so, an executable, program:COMMAND or shader:FILE; all but the last two may be followed by ":key=value,...".

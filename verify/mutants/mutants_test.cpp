@@ -130,6 +130,8 @@ std::vector<std::string> habits_of_the_process() {
   return names;
 }
 
+[[maybe_unused]] const bool kKept = (use_keeper(LIMITCHECK_KEEPER), true);
+
 class UnusualSubject : public testing::TestWithParam<std::string> {};
 
 TEST_P(UnusualSubject, IsNotBlamedForWhatItDoesToItsProcess) {

@@ -166,9 +166,9 @@ TEST_F(DebianPackage, OfTheProgramRunsAndSaysItsLicence) {
   ASSERT_EQ(shell("dpkg-deb -x limitcheck_*.deb root").code, 0);
   const std::string version = shell("root/usr/bin/limitcheck --version").out;
   EXPECT_TRUE(version.starts_with("limitcheck " LIMITCHECK_VERSION)) << version;
-  for (const char* file :
-       {"libexec/limitcheck/limitcheck-worker", "share/man/man1/limitcheck.1.gz",
-        "share/bash-completion/completions/limitcheck", "share/doc/limitcheck/changelog.gz"})
+  for (const char* file : {"libexec/limitcheck/limitcheck-keeper", "libexec/limitcheck/limitcheck-worker",
+                           "share/man/man1/limitcheck.1.gz", "share/bash-completion/completions/limitcheck",
+                           "share/doc/limitcheck/changelog.gz"})
     EXPECT_TRUE(fs::exists(folder_ / "root/usr" / file)) << file;
   EXPECT_FALSE(fs::exists(folder_ / "root/usr/include"));
   const std::string copyright = read("root/usr/share/doc/limitcheck/copyright");

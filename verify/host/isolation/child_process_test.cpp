@@ -2,21 +2,24 @@
 // Whatever happens to the process: no zombie, no open pipe, no signal for the host.
 #include "verify/host/isolation/child_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <string>
 
 namespace {
 
 using namespace limitcheck::verify;
 using Kind = SubjectDied::Kind;
+
+[[maybe_unused]] const bool kKept = (use_keeper(LIMITCHECK_KEEPER), true);  // of all tests of this program
 
 class Process : public testing::Test {
  protected:
@@ -141,18 +144,6 @@ TEST_F(Process, ThatCannotBeStartedSaysSo) {
   EXPECT_TRUE(missing.not_started());
 }
 
-// In a process of its own, so that others of this program have no launcher. Whether all was as expected.
-bool with_launcher(const std::function<void()>& work) {
-  const pid_t process = fork();
-  if (process == 0) {
-    use_launcher();
-    work();
-    _exit(testing::Test::HasFailure() ? 1 : 0);
-  }
-  int status = -1;
-  return waitpid(process, &status, 0) == process && status == 0;
-}
-
 std::string said(const std::string& command) {
   ChildProcess child({"/bin/sh", "-c", command}, {});
   std::string line = child.line(1000);
@@ -169,49 +160,27 @@ long keeper_mib_beside(std::size_t bytes) {
   return std::stol(line.substr(line.find(':') + 1)) / 1024;
 }
 
-TEST_F(Process, OfALauncherKnowsNothingOfWhatThisProgramHasSince) {
-  constexpr std::size_t kLarge = std::size_t{1} << 40;
-  EXPECT_GE(keeper_mib_beside(kLarge), 1L << 20);
-  EXPECT_TRUE(with_launcher([] {
-    EXPECT_LT(keeper_mib_beside(kLarge), 1L << 19);
-    EXPECT_EQ(kind_of([] { said("kill -SEGV $$"); }, "SIGSEGV"), Kind::kCrash);
-  }));
+TEST_F(Process, HasAKeeperThatHasNothingOfTheMemoryOfThisProgram) {
+  EXPECT_LT(keeper_mib_beside(std::size_t{1} << 40), 64);
 }
 
-TEST_F(Process, OfALauncherThatHasDiedIsStartedWithoutIt) {
-  EXPECT_TRUE(with_launcher([] {
-    std::ifstream children("/proc/thread-self/children");
-    pid_t launcher = 0;
-    ASSERT_TRUE(children >> launcher);
-    EXPECT_EQ(said("echo up"), "up");
-    kill(launcher, SIGKILL);
-    EXPECT_EQ(waitpid(launcher, nullptr, 0), launcher);
-    EXPECT_EQ(said("echo up"), "up");
-    EXPECT_EQ(said("echo up"), "up");
-  }));
+TEST_F(Process, MayHaveALongCommand) {
+  for (const std::size_t size : {100, 65000, 66000, 120000})
+    EXPECT_EQ(said("echo up #" + std::string(size, 'x')), "up") << size;
 }
 
-TEST_F(Process, OfALauncherMayHaveACommandOfAnyLength) {
-  EXPECT_TRUE(with_launcher([] {
-    for (const std::size_t size : {100, 65000, 65510, 65520, 65530, 66000, 120000})
-      EXPECT_EQ(said("echo up #" + std::string(size, 'x')), "up") << size;
-  }));
+TEST_F(Process, HasNoDescriptorsButItsOwn) {
+  const int open_here = open("/dev/null", O_RDONLY);  // without O_CLOEXEC
+  EXPECT_EQ(said("python3 -c 'import os; print(len(os.listdir(\"/proc/self/fd\")))'"),
+            "4");  // one is the list's
+  EXPECT_EQ(said("grep ^SigBlk /proc/$$/status"), "SigBlk:\t0000000000000000");
+  close(open_here);
 }
 
-TEST_F(Process, OfAForkedProgramComesFromALauncherOfItsOwn) {
-  EXPECT_TRUE(with_launcher([] {
-    EXPECT_EQ(said("echo up"), "up");
-    const pid_t fork_of_it = fork();
-    if (fork_of_it == 0) {
-      EXPECT_LT(keeper_mib_beside(0x1000), 1L << 19);
-      EXPECT_EQ(said("echo up"), "up");
-      _exit(testing::Test::HasFailure() ? 1 : 0);
-    }
-    for (int k = 0; k < 20; ++k) EXPECT_EQ(said("echo up"), "up");
-    int status = -1;
-    EXPECT_EQ(waitpid(fork_of_it, &status, 0), fork_of_it);
-    EXPECT_EQ(status, 0);
-  }));
+TEST_F(Process, CannotBeStartedWithoutAKeeper) {
+  use_keeper("/no/such/keeper");
+  EXPECT_THROW(ChildProcess({"/bin/true"}, {}), HostLacks);
+  use_keeper(LIMITCHECK_KEEPER);
 }
 
 }  // namespace

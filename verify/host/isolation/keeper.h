@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace limitcheck::verify {
 
@@ -44,18 +45,11 @@ struct KeeperPipes {
   std::array<int, 5> end{-1, -1, -1, -1, -1};
 };
 
-/// Starts a keeper that runs argv[0] with these arguments. Returns its process number, or -1 with errno. In a
-/// namespace it ends with the thread that is its parent, too. It keeps no descriptors but these pipes.
-///   as_sibling   its parent is that of this process
-pid_t clone_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes, bool as_sibling);
+/// The program that keepers are, from now on: limitcheck-keeper. Not while one is started.
+void use_keeper(const std::string& program);
 
-/// From now on keepers are started by a launcher, which this forks: call it early. The system copies the tables of all
-/// pages of a process that it clones, and this program grows large; the launcher is a copy of it from its first moments, and
-/// clones itself instead. Keepers have the environment and the folder that this program has now, and end with the thread that
-/// calls it. A process that is forked later gets a launcher of its own with its first keeper.
-void use_launcher();
-
-/// Starts a keeper, which is a child of this process, as clone_keeper() does.
+/// Starts a keeper that runs argv[0] with these arguments: a child of this process. Returns its number, or -1 with errno. In
+/// a namespace it ends with the thread that is its parent, too. It keeps no descriptors but these pipes.
 pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes);
 
 }  // namespace limitcheck::verify

@@ -110,6 +110,10 @@ std::uint64_t bytes_behind(std::string_view sought, const char* file, pid_t proc
 
 }  // namespace
 
+std::vector<pid_t> children_of(pid_t process, const fs::path& proc) {
+  return lists_children(proc) ? listed_children(process, proc) : all_children(proc)[process];
+}
+
 std::vector<pid_t> descendants(pid_t process, const fs::path& proc) {
   const bool listed = lists_children(proc);
   std::map<pid_t, std::vector<pid_t>> children;

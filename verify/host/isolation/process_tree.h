@@ -16,6 +16,9 @@ namespace limitcheck::verify {
 /// the parents of all processes there are. `proc`: for tests.
 std::vector<pid_t> descendants(pid_t process, const std::filesystem::path& proc = "/proc");
 
+/// Its children alone.
+std::vector<pid_t> children_of(pid_t process, const std::filesystem::path& proc = "/proc");
+
 /// Bytes that these processes hold: what they have resident together, and all of the shared memory without a name (memfd,
 /// unlinked files of a tmpfs) that they have open or mapped, whether or not they look at it. Pages that they share count
 /// once if the sum of all exceeds `enough`: only then are they looked for, which takes long. Of these, `shared`: such

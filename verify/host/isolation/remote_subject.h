@@ -2,6 +2,7 @@
 // Subjects that run in a process of their own, behind the same plug-in interface as all others.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +16,7 @@ struct IsolationSettings {
   ProcessLimits limits;
   /// The program that serves libraries, shaders and built-in subjects: `WORKER worker library FILE`, `WORKER worker
   /// shader FILE`, `WORKER worker built-in NAME`. It calls serve() (worker.h).
-  std::string worker = "/proc/self/exe";
+  std::string worker = std::filesystem::read_symlink("/proc/self/exe");
   /// Where the control mesh and the depths of a breakdown are saved; empty: nowhere.
   std::string witness_folder;
   /// Libraries and built-in subjects: whether the worker puts in_turns.h in front of the subject.

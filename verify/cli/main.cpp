@@ -2,7 +2,6 @@
 
 #include "verify/cli/commands.h"
 #include "verify/cli/units.h"
-#include "verify/host/in_turns.h"
 #include "verify/host/isolation/worker.h"
 #include "verify/subject/registry.h"
 #include "verify/subject/subject_error.h"
@@ -18,27 +17,9 @@ void add_external(CLI::App& app, int& exit_code, const std::string& name, const 
   command->callback([command, name, &exit_code] { exit_code = hand_over(name, command->remaining()); });
 }
 
-// Hidden: the process that isolated subjects run in.
-void add_worker(CLI::App& app, int& exit_code) {
-  struct MainArguments {
-    std::string kind, what;
-    bool in_turns = false;
-  };
-  auto a = std::make_shared<MainArguments>();
-  CLI::App* command =
-      app.add_subcommand("worker", "Serve one subject to an audit, on standard input and output");
-  command->group("");
-  command->add_option("KIND", a->kind)->required()->check(CLI::IsMember({"library", "built-in"}));
-  command->add_option("WHAT", a->what, "A shared library, or the name of a built-in subject")->required();
-  command->add_flag("--in-turns", a->in_turns, "Ask it for other things in between");
-  command->callback([a, &exit_code] {
-    const auto load = [&]() -> const lc_subject& {
-      if (a->kind == "library") return verify::load_subject(a->what);
-      if (const lc_subject* subject = verify::find_subject(a->what)) return *subject;
-      throw verify::SubjectError(LC_INVALID_INPUT, "there is no such built-in subject");
-    };
-    exit_code = verify::serve(load, a->in_turns);
-  });
+const lc_subject& built_in(const std::string& name) {
+  if (const lc_subject* subject = verify::find_subject(name)) return *subject;
+  throw verify::SubjectError(LC_INVALID_INPUT, "there is no such built-in subject");
 }
 
 int run(int argc, char** argv) {
@@ -69,7 +50,6 @@ int run(int argc, char** argv) {
                "Performance tracking: measure, compare, hold exact costs, draw the trend");
   add_external(app, exit_code, "shader", "A GLSL file of `audit --shader` as GLSL for Vulkan");
   add_manual(app, exit_code);
-  add_worker(app, exit_code);
 
   return run_program(app, argc, argv, exit_code);
 }
@@ -78,5 +58,8 @@ int run(int argc, char** argv) {
 }  // namespace limitcheck::cli
 
 int main(int argc, char** argv) {
+  // The process that isolated subjects run in.
+  if (argc > 1 && std::string_view(argv[1]) == "worker")
+    return limitcheck::verify::serve(argc, argv, "built-in", limitcheck::cli::built_in);
   return limitcheck::cli::run(argc, argv);
 }

@@ -3,7 +3,6 @@
 // `limitcheck shader FILE` prints one for Vulkan.
 #include <cstdio>
 #include <exception>
-#include <span>
 #include <string_view>
 
 #include "verify/host/isolation/worker.h"
@@ -12,12 +11,9 @@
 
 int main(int argc, char** argv) {
   using namespace limitcheck::verify;
-  const std::span<char*> words(argv, static_cast<std::size_t>(argc));
-  const std::string_view command = words.size() > 1 ? words[1] : "--help";
-  const bool in_turns = words.size() == 5 && std::string_view(words[4]) == "--in-turns";
-  if ((words.size() == 4 || in_turns) && command == "worker" && std::string_view(words[2]) == "shader")
-    return serve([&]() -> const lc_subject& { return shader_subject(words[3]); }, in_turns);
-  if (words.size() != 2 || command.starts_with('-')) {
+  const std::string_view command = argc > 1 ? argv[1] : "--help";
+  if (command == "worker") return serve(argc, argv, "shader", shader_subject);
+  if (argc != 2 || command.starts_with('-')) {
     std::fputs(
         "limitcheck shader FILE.glsl: the file with all that it is given, as GLSL for Vulkan\n"
         "  limitcheck shader my.glsl > my.comp; glslangValidator -V my.comp -o my.spv\n"
@@ -26,7 +22,7 @@ int main(int argc, char** argv) {
     return command == "--help" ? 0 : 2;
   }
   try {
-    std::fputs(vulkan_text(read_shader(words[1])).c_str(), stdout);
+    std::fputs(vulkan_text(read_shader(argv[1])).c_str(), stdout);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "limitcheck: %s\n", error.what());

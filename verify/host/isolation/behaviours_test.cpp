@@ -90,7 +90,7 @@ class Behaviours : public testing::TestWithParam<bool> {
     before_ = fs::current_path();
     fs::current_path(folder_);
     setenv(kMark, std::to_string(getpid()).c_str(), 1);
-    settings_.worker = LIMITCHECK_PROGRAM;
+    settings_.worker = LIMITCHECK_WORKER;
     settings_.limits.memory_mib = 300;
     settings_.limits.processes = 50;
     settings_.limits.namespaces = GetParam();

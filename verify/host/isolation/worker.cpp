@@ -210,7 +210,14 @@ void answer(const lc_subject& subject, std::optional<Loaded>& loaded, const Head
 
 }  // namespace
 
-int serve(const std::function<const lc_subject&()>& load, bool in_turns) {
+int serve(int argc, char** argv, std::string_view kind,
+          const lc_subject& (*open_subject)(const std::string&)) {
+  const std::vector<std::string> words(argv, argv + argc);
+  const bool in_turns = words.size() == 5 && words[4] == "--in-turns";
+  if (!(words.size() == 4 || in_turns) || words[1] != "worker" || words[2] != kind) {
+    fmt::print(stderr, "{}: `limitcheck audit` starts this program\n", program_invocation_short_name);
+    return 2;
+  }
   // The protocol moves away from standard output, which becomes the subject's to print on.
   const int out = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 10), in = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 10);
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -230,7 +237,10 @@ int serve(const std::function<const lc_subject&()>& load, bool in_turns) {
     try {
       const Header header = protocol::read_header(host);
       try {
-        if (subject == nullptr) subject = in_turns ? &turns.emplace(load()).subject() : &load();
+        if (subject == nullptr) {
+          subject = &open_subject(words[3]);
+          if (in_turns) subject = &turns.emplace(*subject).subject();
+        }
         answer(*subject, loaded, header, host);
       } catch (const HostLacks& lack) {  // the host finds the same shortage, and says so
         host.write({{"limitcheck", protocol::kVersion}, {"status", "failed"}, {"message", lack.what}});

@@ -69,21 +69,6 @@ std::atomic<bool> no_namespaces{false};
 ChildProcess::ChildProcess(const std::vector<std::string>& command, const ProcessLimits& limits,
                            Receipt* receipt)
     : limits_(limits), receipt_(receipt != nullptr ? *receipt : unread_) {
-  if (limits.namespaces && !no_namespaces) {
-    start(command, Containment::kNamespace);
-    no_namespaces = !alive();
-  }
-  if (!alive()) start(command, Containment::kSubreaper);
-  if (!alive()) refuse("cannot start a process");
-  ++receipt_.processes;
-}
-
-// If the child cannot be contained in this way, it is not alive afterwards, and errno says why.
-void ChildProcess::start(const std::vector<std::string>& command, Containment containment) {
-  std::vector<char*> argv;
-  for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-
   KeeperPipes theirs;
   const auto close_theirs = [&theirs] {
     for (const int fd : theirs.end)
@@ -101,29 +86,21 @@ void ChildProcess::start(const std::vector<std::string>& command, Containment co
     pipe_[pipe] = ends[they_read ? 1 : 0];
     fcntl(pipe_[pipe], F_SETFL, O_NONBLOCK);
   }
-  containment_ = containment;
-  keeper_ = start_keeper(containment, argv.data(), theirs);
+  for (const Containment how : {Containment::kNamespace, Containment::kSubreaper}) {
+    if (alive() || (how == Containment::kNamespace && (!limits.namespaces || no_namespaces))) continue;
+    containment_ = how;
+    keeper_ = start_keeper(how, command, theirs);
+  }
   const int error = errno;
   close_theirs();
   if (!alive()) {
     kill_and_reap();
     errno = error;
-    return;
+    refuse("cannot start a process");
   }
+  if (limits.namespaces) no_namespaces = containment_ == Containment::kSubreaper;
   start_clock();
-  // The first message of the keeper says whether there is a child.
-  pollfd news{pipe_[kNews], POLLIN, 0};
-  while (::poll(&news, 1, static_cast<int>(std::chrono::milliseconds(kGrace).count())) < 0 &&
-         errno == EINTR) {
-  }
-  News first{News::kGivesUp, ECHILD};
-  (void)!::read(pipe_[kNews], &first, sizeof first);
-  if (first.kind == News::kGivesUp) {
-    kill_and_reap();
-    errno = first.value;
-  } else {
-    take(first);
-  }
+  ++receipt_.processes;
 }
 
 void ChildProcess::close_pipe(Pipe pipe) {
@@ -132,6 +109,11 @@ void ChildProcess::close_pipe(Pipe pipe) {
 }
 
 void ChildProcess::take(const News& news) {
+  if (news.kind == News::kGivesUp) {
+    kill_and_reap();
+    errno = news.value;
+    refuse("cannot start a process");
+  }
   if (news.kind == News::kNotStarted) {
     not_started_ = true;
     errors_ += fmt::format("{}\n", std::strerror(news.value));

@@ -79,7 +79,6 @@ class ChildProcess : public protocol::Source {
   std::size_t read_some(std::span<std::byte> to);
   void refuse_more_output();
   void drain_errors();
-  void start(const std::vector<std::string>& command, Containment containment);
   void take(const News& news);
   bool wait_for_end(Clock::time_point until);
   void close_pipe(Pipe pipe);

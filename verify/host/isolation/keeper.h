@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace limitcheck::verify {
 
@@ -23,9 +24,8 @@ enum class Containment { kNamespace, kSubreaper };
 /// What the keeper tells, one after another, in the pipe `news`.
 struct News {
   enum Kind : int {
-    kGivesUp,     // it cannot work in this way; value: errno. It has started nothing and ends
-    kRunning,     // the child exists. Its program need not yet
-    kNotStarted,  // there is no such program, or it cannot be run; value: errno. May come before kRunning
+    kGivesUp,     // the system lets it start no child; value: errno
+    kNotStarted,  // there is no such program, or it cannot be run; value: errno
     kEnded  // value: the status of waitpid. All that the child has started is gone; under a subreaper, all
             // but what multiplies faster than it can be killed
   };
@@ -48,8 +48,9 @@ struct KeeperPipes {
 /// The program that keepers are, from now on: limitcheck-keeper. Not while one is started.
 void use_keeper(const std::string& program);
 
-/// Starts a keeper that runs argv[0] with these arguments: a child of this process. Returns its number, or -1 with errno. In
+/// Starts a keeper that runs this command: a child of this process. Returns its number, or -1 with errno. In
 /// a namespace it ends with the thread that is its parent, too. It keeps no descriptors but these pipes.
-pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes);
+pid_t start_keeper(Containment containment, const std::vector<std::string>& command,
+                   const KeeperPipes& pipes);
 
 }  // namespace limitcheck::verify

@@ -80,7 +80,6 @@ int keep(bool in_namespace, char* const* argv, const KeeperPipes& pipes) {
     tell(pipes.end[KeeperPipes::kNews], News::kGivesUp, errno);
     return 1;
   }
-  tell(pipes.end[KeeperPipes::kNews], News::kRunning, 0);
   for (int k = 0; k < 3; ++k) close(pipes.end[k]);
   for (const int fd : {0, 1, 2}) close(fd);
 

@@ -13,7 +13,6 @@
 #include <csignal>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "verify/host/isolation/keeper.h"
 
@@ -28,7 +27,7 @@ std::string& keeper_program() {
 struct Start {
   Containment containment;
   const KeeperPipes& pipes;
-  char* const* command;
+  char* const* argv;
   uid_t user;
   gid_t group;
   bool new_user = false;
@@ -67,7 +66,7 @@ int become_keeper(void* given) {
   for (const int fd : start.pipes.end) fcntl(fd, F_SETFD, 0);
   if (start.containment == Containment::kSubreaper ||
       ((!start.new_user || keep_identity(start)) && mount_proc()))
-    execv(start.command[0], start.command);
+    execv(start.argv[0], start.argv);
   start.error = errno;
   _exit(127);
 }
@@ -78,29 +77,30 @@ void use_keeper(const std::string& program) {
   keeper_program() = program;
 }
 
-pid_t start_keeper(Containment containment, char* const* argv, const KeeperPipes& pipes) {
+pid_t start_keeper(Containment containment, const std::vector<std::string>& command,
+                   const KeeperPipes& pipes) {
   std::vector<std::string> words{keeper_program(),
                                  containment == Containment::kNamespace ? "namespace" : "subreaper"};
   for (const int fd : pipes.end) words.push_back(std::to_string(fd));
-  std::vector<char*> command;
-  for (std::string& word : words) command.push_back(word.data());
-  do command.push_back(*argv);
-  while (*argv++ != nullptr);
+  words.insert(words.end(), command.begin(), command.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
 
-  Start start{containment, pipes, command.data(), geteuid(), getegid()};
-  alignas(64) std::array<char, 65536> stack;
+  Start start{containment, pipes, argv.data(), geteuid(), getegid()};
   sigset_t all, before;  // a handler of this program must not run in the other process
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &before);
-  const auto begin = [&](int namespaces) {
-    return clone(become_keeper, stack.data() + stack.size(), CLONE_VM | CLONE_VFORK | SIGCHLD | namespaces,
-                 &start);
-  };
   pid_t keeper = -1;
 #if defined(__SANITIZE_THREAD__)  // knows of no process that it has not forked itself
   errno = ENOSYS;
   if (containment == Containment::kSubreaper && (keeper = fork()) == 0) become_keeper(&start);
 #else
+  alignas(64) std::array<char, 65536> stack;
+  const auto begin = [&](int namespaces) {
+    return clone(become_keeper, stack.data() + stack.size(), CLONE_VM | CLONE_VFORK | SIGCHLD | namespaces,
+                 &start);
+  };
   constexpr int kNamespaces = CLONE_NEWPID | CLONE_NEWNS;
   keeper = begin(containment == Containment::kNamespace ? kNamespaces : 0);
   if (keeper < 0 && errno == EPERM && containment == Containment::kNamespace) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "reference/catmull_clark/refined_mesh.h"
+#include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
 #include "verify/host/host.h"
 #include "verify/mutants/mutant_rules.h"

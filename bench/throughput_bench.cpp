@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Row streaming and all other routes in one run; compare the ratios of the last lines. --scheme loop (the
-// default) or catmull-clark. Names: route/steady|scratch/shape/faces:N/depth:M/threads:T, where the shape is
-// bumpy or, of quads, quads, half-regular or regular. Counters: points/s distinct limit points, written/s
-// bytes of evaluated points, 24 each; peak: bytes by which the process grows in one run from scratch, the
-// control mesh not counted.
+// default) or catmull-clark; --gl: by OpenGL, too, on its device. Names:
+// route/steady|scratch/shape/faces:N/depth:M/threads:T, where the shape is bumpy or, of quads, quads,
+// half-regular or regular. Counters: points/s distinct limit points, written/s bytes of evaluated points, 24
+// each; peak: bytes by which the process grows in one run from scratch, the control mesh not counted.
 #include <benchmark/benchmark.h>
 #include <hwy/aligned_allocator.h>
 
@@ -12,7 +12,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -141,6 +143,7 @@ class RatioTable : public benchmark::ConsoleReporter {
             scratch(depth, kBumpy), fastest_peer("scratch", kBumpy, depth), least);
     print("100 000 faces, depth 5, all threads / one", points(best_, 5, kManyFaces, all_threads_),
           points(best_, 5, kManyFaces), 1.85);
+    print("depth 5, rows by OpenGL / rows", points("row-stream/gl", 5), rows);
   }
 
   data::Scheme scheme_;
@@ -176,7 +179,7 @@ void from_scratch(benchmark::State& state, const Route& route, const Shape& shap
   const auto& mesh = mesh_of(shape);
   static std::map<std::string, double> peaks;  // once per case, not per repetition
   double& peak = peaks[bench::full_name(route.name, "scratch", shape, depth, 1)];
-  if (peak == 0) peak = bench::peak_memory([&] { route.make(mesh, depth, 1)->run(); });
+  if (peak == 0 && !route.on_a_device) peak = bench::peak_memory([&] { route.make(mesh, depth, 1)->run(); });
   double evaluated = 0;
   for (auto _ : state) {
     const auto contender = route.make(mesh, depth, 1);
@@ -206,11 +209,12 @@ void write_only(benchmark::State& state, std::size_t bytes, bool streaming) {
       benchmark::Counter(static_cast<double>(bytes), benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Processor time of one thread, which others on the machine do not add to; of more the time on the wall.
+/// Processor time of one thread, which others on the machine do not add to; of more, and of a device, the time on the wall.
 template <class Function>
-void add(const std::string& name, Function function) {
+void add(const std::string& name, Function function, bool on_a_device = false) {
   auto* one = benchmark::RegisterBenchmark(name.c_str(), function)->Unit(benchmark::kMillisecond);
-  if (name.find("threads:") != std::string::npos && !name.ends_with("threads:1")) one->UseRealTime();
+  if (on_a_device || (name.find("threads:") != std::string::npos && !name.ends_with("threads:1")))
+    one->UseRealTime();
 }
 
 /// Cases that would take more than some seconds or a few gigabytes are left out.
@@ -226,12 +230,14 @@ void add_route(const Route& route, const std::vector<Shape>& shapes, const std::
       if (!affordable(route, shape, depth, false)) continue;
       for (const int t : threads) {
         if (t > 1 && !route.threads) continue;
-        add(bench::full_name(route.name, "steady", shape, depth, t),
-            [=](auto& s) { steady(s, route, shape, depth, t); });
+        add(
+            bench::full_name(route.name, "steady", shape, depth, t),
+            [=](auto& s) { steady(s, route, shape, depth, t); }, route.on_a_device);
       }
       if (affordable(route, shape, depth, true)) {
-        add(bench::full_name(route.name, "scratch", shape, depth, 1),
-            [=](auto& s) { from_scratch(s, route, shape, depth); });
+        add(
+            bench::full_name(route.name, "scratch", shape, depth, 1),
+            [=](auto& s) { from_scratch(s, route, shape, depth); }, route.on_a_device);
       }
     }
   }
@@ -259,10 +265,15 @@ data::Scheme take_scheme(std::vector<char*>& arguments) {
   return data::Scheme::kLoop;
 }
 
+bool take_gl(std::vector<char*>& arguments) {
+  return std::erase_if(arguments, [](const char* word) { return std::string_view(word) == "--gl"; }) > 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::vector<char*> arguments(argv, argv + argc);
+  const bool gl = take_gl(arguments);
   const data::Scheme scheme = take_scheme(arguments);
   const bool triangles = scheme == data::Scheme::kLoop;
   std::vector<int> threads{1};
@@ -274,6 +285,12 @@ int main(int argc, char** argv) {
                            bench::far_limit_stencils, bench::cgal_refinement, bench::openmesh_refinement})
     routes.push_back(make());
   if (!triangles) routes.push_back(bench::embree_interpolation());
+  if (gl) try {
+      routes.push_back(bench::row_stream_by_gl());
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "throughput_bench: %s\n", error.what());
+      return 2;
+    }
   std::vector<Shape> shapes{bench::kQuads, bench::kHalfRegularQuads, bench::kRegularQuads, bench::kManyQuads};
   if (triangles) {
     shapes.clear();

@@ -47,6 +47,7 @@ struct Route {
   double bytes_per_point;
   bool threads;  // can use more than one
   std::function<std::unique_ptr<Contender>(const data::ControlMesh&, int depth, int threads)> make;
+  bool on_a_device = false;  // beside the processor, which a forked process does not have
 };
 
 /// Makes contenders of one class, which takes a mesh, a depth and, if it can use more than one, threads.
@@ -67,6 +68,9 @@ std::vector<Route> our_routes();
 std::vector<Route> paper_routes();
 /// The same for meshes of quads: row streaming of Catmull-Clark's surfaces.
 std::vector<Route> our_quad_routes();
+
+/// Row streaming of either scheme by OpenGL. Throws std::runtime_error if there is none.
+Route row_stream_by_gl();
 
 /// Others', for meshes of triangles (Loop's scheme) or of quads (Catmull-Clark's). Each as fast as the
 /// library's own interface lets it be, in float where it can be: no plug-in interface, no provenance.

@@ -16,7 +16,9 @@ layout(std140, binding = 0) uniform Batch {
   ivec4 period;       // quads: see QuadBatch of layout.h
   int open, darts, sharp, some_polynomial;
   int depth;
+  int first_group;  // of the grids, quads, edges or sides that are given, that which work group 0 does
 };
+int group() { return first_group + int(gl_WorkGroupID.x); }
 layout(std430, binding = 1) readonly buffer Given { float given[]; };  // corner blocks, see layout.h
 layout(std430, binding = 2) writeonly buffer Points { float points[]; };  // six numbers a vertex
 

@@ -29,7 +29,7 @@ void evaluate(vec3 a, vec3 b, vec3 c, vec3 d, float t, out vec3 value, out vec3 
 }
 
 void main() {
-  int at = int(gl_WorkGroupID.x);
+  int at = begin_of(group());
   precise vec3 origin = middle(patch_point(at, 1, 1), patch_point(at, 2, 2));
   precise vec3 centre = origin * control_unit + batch_centre.xyz;
   int side = lane() / 4, number = lane() % 4, curve = kCurves + kCurve * side;
@@ -75,6 +75,6 @@ void main() {
       }
       stage(i, v);
     }
-    put_staged((N + 1) * at + j);
+    put_staged((N + 1) * group() + j);
   }
 }

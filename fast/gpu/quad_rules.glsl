@@ -7,7 +7,11 @@ int kWidth = 7 + 4 * depth, kBlock = kWindow + 3 * kWidth;
 // Of a corner and level: c, then seven entries of the ring, e- f- e f e' f' e''.
 const int kBorder = 24;
 
-// Of quad or side `at` of those that lie side by side.
+// Where what is given of a quad or side begins: batches of given_stride lie side by side, quad_input_size(depth) numbers each.
+int begin_of(int number) {
+  return number / given_stride * max(4 * kBlock + 8 + 4 * (1 + 3 * depth) + kParts, 72) * given_stride + number % given_stride;
+}
+// Of the quad or side that begins at `at`.
 int block_of(int at, int corner) { return corner * kBlock * given_stride + at; }
 bool flag(int at, int bits, int k, int number) {
   return (bits >> k & 1) != 0 && given[(number + k) * given_stride + at] != 0.0;

@@ -36,7 +36,7 @@ void make_point(int level, int i, int j, bool is_sharp_line) {
 }
 
 void main() {
-  int group = int(gl_WorkGroupID.x), at = group / sides, p = group % sides, q = (p + 1) % 4;
+  int at = begin_of(group() / sides), p = group() % sides, q = (p + 1) % 4;
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL
@@ -59,6 +59,6 @@ void main() {
     if (i == 0 || i == N) v = at_corner(at, i == 0 ? p : q);
     else if (polynomial) v = curve_point(STAGED, i);
     else v = line_limit(ivec3(m - 3, m, m + 3), -kRow, kRow, sharp_side, true, centre);
-    put(group * (N + 1) + i, v);
+    put(group() * (N + 1) + i, v);
   }
 }

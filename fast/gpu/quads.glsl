@@ -81,7 +81,7 @@ void put_row(int at, int j, vec3 centre) {
       v = at_corner(at, j == 0 ? (i == 0 ? kA : kB) : (i == 0 ? kD : kC));
 #if LOCAL
     } else if (side >= 0) {
-      int from = 6 * ((4 * int(gl_WorkGroupID.x) + side) * (N + 1) + k);
+      int from = 6 * ((4 * group() + side) * (N + 1) + k);
       v = Vertex(vec3(side_points[from], side_points[from + 1], side_points[from + 2]),
                  vec3(side_points[from + 3], side_points[from + 4], side_points[from + 5]));
 #else
@@ -96,11 +96,11 @@ void put_row(int at, int j, vec3 centre) {
     }
     stage(i, v);
   }
-  put_staged((N + 1) * int(gl_WorkGroupID.x) + j);
+  put_staged((N + 1) * group() + j);
 }
 
 void main() {
-  int at = int(gl_WorkGroupID.x);
+  int at = begin_of(group());
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL

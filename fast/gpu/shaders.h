@@ -70,7 +70,9 @@ struct alignas(16) BatchUniforms {
   std::array<std::int32_t, 4> period{};
   std::uint32_t open = 0, darts = 0, sharp = 0, some_polynomial = 0;
   std::int32_t depth = 0;
+  std::int32_t first_group = 0;
 
+  bool operator==(const BatchUniforms&) const = default;
   static BatchUniforms of(int depth, const Placement<float>& placement, int lanes);
   static BatchUniforms of(const row_stream::QuadBatch<float>& batch, const Placement<float>& placement,
                           int lanes, int sides);

@@ -49,7 +49,7 @@ void make_side(int level, int i, bool up) {
 }
 
 void main() {
-  EdgeEnds end = ends[gl_WorkGroupID.x];
+  EdgeEnds end = ends[group()];
   precise vec3 centre = batch_centre.xyz;
   vec3 origin = vec3(0.0);
 #if LOCAL
@@ -76,6 +76,6 @@ void main() {
     } else {
       v = limit_rule(load(line_of(depth) + 3 * i), hexagon(depth, i), centre);
     }
-    put(int(gl_WorkGroupID.x) * (N + 1) + i, v);
+    put(group() * (N + 1) + i, v);
   }
 }

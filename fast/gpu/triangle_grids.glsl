@@ -13,7 +13,7 @@ const int kA = 0, kB = 1, kC = 2, kD = 3;
 int core_width(int corner) { return 5 - corner % 2; }
 int block_of(int corner) {  // batches of given_stride grids side by side
   const int kBlock = kWindow + 3 * (5 + 2 * depth);
-  int grid = int(gl_WorkGroupID.x);
+  int grid = group();
   return ((4 * kBlock + kParts) * (grid / given_stride) + corner * kBlock) * given_stride + grid % given_stride;
 }
 
@@ -74,7 +74,7 @@ void make_row(int level, int j) {
 
 #if LOCAL
 Vertex on_edge(int edge, int k) {
-  int e = edge_of[5 * int(gl_WorkGroupID.x) + edge];
+  int e = edge_of[5 * group() + edge];
   int at = 6 * (e < 0 ? ~e * (N + 1) + N - k : e * (N + 1) + k);
   return Vertex(vec3(edge_points[at], edge_points[at + 1], edge_points[at + 2]),
                 vec3(edge_points[at + 3], edge_points[at + 4], edge_points[at + 5]));
@@ -106,7 +106,7 @@ void put_row(int j, vec3 centre) {
     else v = limit_rule(load(m), hexagon(s, m, n, axis(i, j, N)), centre);
     stage(i, v);
   }
-  put_staged((N + 1) * int(gl_WorkGroupID.x) + j);
+  put_staged((N + 1) * group() + j);
 }
 
 void main() {

@@ -235,8 +235,8 @@ TEST(RowStreamManyVertices, KeepTheNormalsOfNeedlesAtEveryDepth) {
     for (std::size_t v = 0; v < got.size(); ++v) {
       const Grid& grid = grids[v / points];
       const LocalOrigins& local = stream.rings().local();
-      const bool needle = depth >= local.of_face<3>(grid.face0) ||
-                          (!grid.singleton() && depth >= local.of_face<3>(grid.face1));
+      const bool needle = local.of_face<3>(grid.face0) < kLocalFrom ||
+                          (!grid.singleton() && local.of_face<3>(grid.face1) < kLocalFrom);
       needles += needle ? 1 : 0;
       for (std::size_t c = 0; c < 3; ++c)
         worst[needle] =

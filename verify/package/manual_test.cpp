@@ -64,7 +64,7 @@ using Offer = std::vector<std::string>;
 
 TEST_F(Completion, OffersCommandsOptionsChoicesSubjectsAndMeshes) {
   EXPECT_EQ(offers("a"), Offer{"audit"});
-  EXPECT_EQ(offers("''").size(), 13U);
+  EXPECT_EQ(offers("''").size(), 14U);
   EXPECT_EQ(offers("audit --dep"), (Offer{"--depth", "--depths"}));
   EXPECT_EQ(offers("audit --level ''"), (Offer{"quick", "standard", "thorough"}));
   EXPECT_EQ(offers("tessellate cube --strategy p"), Offer{"project-sphere"});

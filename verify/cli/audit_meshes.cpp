@@ -215,7 +215,16 @@ std::string subject_digest(const lc_subject& subject) {
   std::string file = subject.name;
   if (file.starts_with("program:")) file = file.substr(8, file.find(' ', 8) - 8);
   if (file.starts_with("shader:")) file.erase(0, 7);
-  const std::string found = file_digest(file);
+  std::string found;
+  if (const fs::path module = file; module.extension() == ".spv") {  // with its pragmas and passes
+    std::set<fs::path> parts;
+    std::error_code none;
+    for (const fs::directory_entry& e : fs::directory_iterator(fs::absolute(module).parent_path(), none))
+      if (e.path().filename().string().starts_with(module.stem().string() + '.')) parts.insert(e.path());
+    for (const fs::path& part : parts) found += file_digest(part.string());
+  } else {
+    found = file_digest(file);
+  }
   return !found.empty() ? found : subject.description != nullptr ? subject.description : "";
 }
 

@@ -79,6 +79,22 @@ TEST_F(SpirvDoor, ALoopWithoutEndIsAFindingAndTheAuditGoesOn) {
   EXPECT_EQ(status(report, "written", "quad-cube"), "held");
 }
 
+TEST_F(SpirvDoor, AnAuditOfAModuleWithOtherPragmasOrPassesIsAnotherOne) {
+  plant("function.glsl", "  position = vec3(0);\n",
+        "  position = vec3(0);\n  if (lc_F > 6)\n    for (int a = 0; a < 1000000000; ++a)\n"
+        "      for (int b = 0; b < 1000000000; ++b) position.x = position.x * 0.999 + uv.x;\n");
+  compile("wrong.glsl");
+  const std::string arguments =
+      "audit --shader my.spv quad-cube quad-torus --depth 1 --level quick --timeout 100 --json r.json ";
+  (void)signalled(arguments, "[ \"$(wc -l < r.jsonl)\" -ge 2 ]", "KILL");  // quad-torus has no end
+  const std::string pragmas = read("my.spv.pragmas");
+  for (const char* other : {"my.spv.pragmas", "my.PASS.spv"}) {
+    write("my.spv.pragmas", pragmas);
+    write(other, pragmas + "// another\n");
+    EXPECT_TRUE(says(run(arguments + "--resume", 2).err, "of another plan")) << other;
+  }
+}
+
 TEST_F(SpirvDoor, WhatCannotBeRunIsRefusedWithAWord) {
   const auto refused = [&](const char* what) {
     const Outcome o = run("audit --shader my.spv quad-torus --depth 1", 2);

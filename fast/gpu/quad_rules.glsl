@@ -9,7 +9,8 @@ const int kBorder = 24;
 
 // Where what is given of a quad or side begins: batches of given_stride lie side by side, quad_input_size(depth) numbers each.
 int begin_of(int number) {
-  return number / given_stride * max(4 * kBlock + 8 + 4 * (1 + 3 * depth) + kParts, 72) * given_stride + number % given_stride;
+  int size = max(4 * kBlock + 8 + 4 * (1 + 3 * depth) + kParts, 72);
+  return number / given_stride * size * given_stride + number % given_stride;
 }
 // Of the quad or side that begins at `at`.
 int block_of(int at, int corner) { return corner * kBlock * given_stride + at; }

@@ -58,7 +58,8 @@ void main() {
 #endif
   for (int k = lane(); k < 6; k += LANES) {
     int c = k % 3;
-    refine_corner(k < 3 ? end.p : end.q, k < 3 ? end.p_first : end.q_first, 3, origin[c], c, k * (3 + 2 * depth), border_of(0, k / 3), 2);
+    refine_corner(k < 3 ? end.p : end.q, k < 3 ? end.p_first : end.q_first, 3, origin[c], c, k * (3 + 2 * depth),
+                  border_of(0, k / 3), 2);
   }
   barrier();
   for (int level = 0; level <= depth; ++level) {

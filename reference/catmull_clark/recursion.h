@@ -54,9 +54,9 @@ class NaiveSubdivider {
   std::shared_ptr<const QuadMesh<N>> mesh_;
 };
 
-/// A mesh of polygons after `depth` steps, the textbook way: every point once. A quad has the lattice points (i, j), 0 <= i, j <= 2^depth, u = i / 2^depth
-/// and v = j / 2^depth. From one step on each corner of another face has a sub-quad of its own with 0 <= i, j
-/// <= 2^(depth-1). Vertices shared by faces appear once; the control vertices come first, in their order.
+/// A mesh of polygons after `depth` steps, the textbook way: every point once. A quad has the lattice points
+/// (i, j), 0 <= i, j <= 2^depth, u = i / 2^depth and v = j / 2^depth. From one step on each corner of another face
+/// has a sub-quad of its own with 0 <= i, j <= 2^(depth-1). Vertices shared by faces appear once; the control vertices come first, in their order.
 /// Built for double, Decimal50, Decimal100 and, without limits(), Rational.
 template <class N>
 class RefinedMesh {
@@ -94,8 +94,7 @@ class RefinedMesh {
 /// until that is regular (a bicubic patch) or the point is its corner (limit masks). The number of steps
 /// grows with -log2 of the distance to the extraordinary vertex, and so does the rounding error of its
 /// derivatives. Built for double, Decimal50, Decimal100, and Rational: there exact at every valence, but
-/// without normals and without
-/// tangents at extraordinary corners.                                   [the paper's ref. 1]
+/// without normals and without tangents at extraordinary corners.       [the paper's ref. 1]
 ///   threads   any number may evaluate at once
 template <class N>
 class SubdivisionEvaluator {

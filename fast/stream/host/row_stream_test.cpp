@@ -211,8 +211,8 @@ data::ControlMesh sheet_with_needles() {
   return mesh;
 }
 
-// Depth 4 has origins of their own in every mesh: at lesser depths grids of needles do at most twice as badly. From an
-// origin common to the mesh they are 3, 16 and 30 times as far off. Other grids lose what such an origin costs: 2^depth
+// Depth 4 has origins of their own in every mesh: at lesser depths grids of needles do at most twice as badly. Their
+// insides from an origin common to the mesh are 7 times as far off as at depth 4. Other grids lose what such an origin costs: 2^depth
 // roundings for each of their heights, 128 at most, in the size of the mesh.
 TEST(RowStreamManyVertices, KeepTheNormalsOfNeedlesAtEveryDepth) {
   const data::ControlMesh mesh = sheet_with_needles();

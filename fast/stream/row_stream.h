@@ -186,7 +186,7 @@ class RowStream : public BasicRowStream<LoopStreams> {
   void move_points(const TriangleMesh& mesh);
 
   /// The depth from which some part of a grid has an origin of its own, see Part.
-  int local_from(const Grid& grid) const;
+  int local_from(const Grid& grid) const { return row_stream::local_from(rings_.local(), grid); }
   /// The grids in an order in which those of the same local_from() follow each other, which makes the best batches. Any
   /// order is right.
   std::vector<Grid> sorted(std::span<const Grid> grids) const;

@@ -56,23 +56,23 @@ class LocalOrigins {
     LocalOrigins all;
     all.least_ = all.all_ = placed.local_from;
     const auto& faces = placed.faces_local_from;
-    all.from_.reserve((K + 2) * faces.size());
-    for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces.size()); ++f) {
-      const std::size_t at = all.from_.size();
-      all.from_.insert(all.from_.end(), {faces[f], faces[f]});
-      for (std::int32_t h = K * f; h < K * (f + 1); ++h) {
-        const std::int32_t other = across(h);
-        all.from_.push_back(other < 0 ? faces[f] : std::min(faces[f], faces[other]));
-        all.from_[at] = std::min(all.from_[at], all.from_.back());
+    all.from_.resize((K + 2) * faces.size());
+    std::uint8_t* its = all.from_.data();
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces.size()); ++f, its += K + 2) {
+      its[0] = its[1] = faces[f];
+      for (int k = 0; k < K; ++k) {
+        const std::int32_t other = across(K * f + k);
+        its[2 + k] = other < 0 ? faces[f] : std::min(faces[f], faces[other]);
+        its[0] = std::min(its[0], its[2 + k]);
       }
-      all.least_ = std::min<int>(all.least_, all.from_[at]);
+      all.least_ = std::min<int>(all.least_, its[0]);
     }
     return all;
   }
 
   bool none(int depth) const { return depth < least_; }
   bool all(int depth) const { return depth >= all_; }
-  /// Of face f, of its edge k, and of whatever of these is the first.
+  /// Of a face, of the edge that a half-edge is, and of whatever of a face and its edges is the first.
   template <int K>
   int of_face(std::int32_t f) const {
     return at<K>(f, 1);

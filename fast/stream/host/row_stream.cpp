@@ -380,10 +380,6 @@ RowStream::RowStream(const TriangleMesh& mesh, const Kernel& kernel)
     : BasicRowStream(kernel, LoopRings(mesh.points(), mesh.adjacency(), mesh.kinds()),
                      mesh.is_cut() ? std::make_shared<const CutGrids>(mesh) : nullptr) {}
 
-int RowStream::local_from(const Grid& grid) const {
-  return row_stream::local_from(rings_.local(), grid);
-}
-
 void RowStream::move_points(const TriangleMesh& mesh) {
   rings_.move_points(place<float>(mesh.points()));
   if (alone_) alone_ = std::make_shared<const CutGrids>(mesh);

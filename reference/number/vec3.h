@@ -56,7 +56,7 @@ N magnitude(const N& a) {
 }
 /// The largest |coordinate|.
 template <class N>
-N magnitude(const Vec3<N>& a) {
+inline N magnitude(const Vec3<N>& a) {
   return std::max({magnitude(a.x), magnitude(a.y), magnitude(a.z)});
 }
 

@@ -23,7 +23,7 @@ struct Tangents {
 
 /// Adds weight * (a - b), and its terms.
 template <class N>
-void add_difference(Vec3<N>& sum, N& terms, const N& weight, const Vec3<N>& a, const Vec3<N>& b) {
+inline void add_difference(Vec3<N>& sum, N& terms, const N& weight, const Vec3<N>& a, const Vec3<N>& b) {
   sum += (a - b) * weight;
   if constexpr (kRounds<N>) terms += (magnitude(a) + magnitude(b)) * magnitude(weight);
 }
@@ -44,13 +44,20 @@ struct VertexLimit {
   Normal<N> normal;
 };
 
+/// The exponent of the largest coordinate.
+template <class N>
+long exponent(const Vec3<N>& a) {
+  using T = NumberTraits<N>;
+  if constexpr (kRounds<N>) return T::exponent(magnitude(a));
+  return std::max({T::exponent(a.x), T::exponent(a.y), T::exponent(a.z)});
+}
+
 /// The vector times the power of two that brings its largest coordinate to [1, 2); zero stays zero.
 template <class N>
 Vec3<N> rescaled(const Vec3<N>& a) {
   using T = NumberTraits<N>;
-  const long e = std::max({T::exponent(a.x), T::exponent(a.y), T::exponent(a.z)});
-  if (e == kZeroExponent) return a;
-  return {T::scale(a.x, -e), T::scale(a.y, -e), T::scale(a.z, -e)};
+  const long e = exponent(a);
+  return e == kZeroExponent ? a : Vec3<N>{T::scale(a.x, -e), T::scale(a.y, -e), T::scale(a.z, -e)};
 }
 
 /// a / |a| for a vector that is not zero, however small or large.
@@ -80,11 +87,8 @@ bool has_normal(const Tangents<N>& t, Vec3<N>& cross_product, N& condition) {
   if (!(square > aa * bb * (N(T::kNormalThreshold) * N(T::kNormalThreshold)))) return false;
   if constexpr (kRounds<N>) {
     // In the scale that `rescaled` chose: to compare with e1, e2 as with a and b.
-    const auto scaled_terms = [](const N& terms, const Vec3<N>& tangent) {
-      return T::scale(terms,
-                      -std::max({T::exponent(tangent.x), T::exponent(tangent.y), T::exponent(tangent.z)}));
-    };
-    const N s1 = scaled_terms(t.first_terms, t.first), s2 = scaled_terms(t.second_terms, t.second);
+    const N s1 = T::scale(t.first_terms, -exponent(t.first)),
+            s2 = T::scale(t.second_terms, -exponent(t.second));
     const N u = N(kRoundingsOfATangent) * N(T::kRounding), size = T::sqrt(square);
     const N turn = T::sqrt(aa) * s2 + T::sqrt(bb) * s1;
     condition = turn / size;

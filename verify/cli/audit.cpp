@@ -316,8 +316,6 @@ void add_audit(CLI::App& app, int& exit_code) {
   add_shard_options(*command, a->shard, "meshes");
   command->add_flag("--details", a->details,
                     "Print a table for each subject and each finding at its worst, not only the overview");
-  command->add_flag("--each-mesh", a->each_mesh,
-                    "As --details, with a line for every mesh and not only for the worst one");
   command->add_flag("--must-refuse", a->must_refuse,
                     "The MESHes are files of broken meshes, which are handed over as they are: the subject "
                     "must refuse them");
@@ -331,7 +329,7 @@ void add_audit(CLI::App& app, int& exit_code) {
         {"--scheme", "--triangulate", "--depth", "--depths", "--sample", "--exhaustive", "--level",
          "--checks", "--rerun", "--must-refuse"});
   group(*command, "The subject", {"--option", "--threads"});
-  group(*command, "On the screen", {"--details", "--each-mesh", "--explain", "--color"});
+  group(*command, "On the screen", {"--details", "--explain", "--color"});
   group(*command, "Reports",
         {"--report", "--json", "--all-rows", "--html", "--junit", "--sarif", "--markdown", "--witnesses",
          "--shrink"});

@@ -79,7 +79,7 @@ struct AuditArguments {
   int threads = 0;
   ShardArguments shard;  // with the file of the report
   std::string report;    // folder of the report in all its forms; empty: none
-  bool each_mesh = false, details = false, must_refuse = false;
+  bool details = false, must_refuse = false;
   OutputArguments output;
   SubjectArguments from;
 };
@@ -163,10 +163,6 @@ struct Audited {
   const verify::Report& report;
   int threads;
 };
-/// Writes each finding of the report as files (verify/report/forms.h), if --witnesses or --shrink says
-/// so; with --shrink one for each subject and check, on a smaller mesh. Says so on standard error. Throws
-/// std::runtime_error, data::InputError: a file cannot be written.
-void write_witnesses(const OutputArguments& arguments, const Audited& audited);
 /// The tessellation that a row is about, made anew.
 std::optional<verify::ErrorShape> shape_of(const Audited& audited, const verify::Result& row);
 /// Writes the JSON of a whole report, as --json says, and what the other options ask for; of each cause the page shows

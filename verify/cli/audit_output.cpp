@@ -121,9 +121,9 @@ void deliver(const AuditArguments& a, const verify::Report& report, const std::s
   else
     say_report(a.output, report, [&](const verify::Report& shown, const verify::Screen& screen) {
       const std::string top = verify::visible_text(about);
-      return a.details || a.each_mesh ? top + "\n" + verify::to_table(shown, screen, a.each_mesh)
-                                      : verify::to_overview(shown, verify::causes(shown), screen, top,
-                                                            a.output.level, where_the_rest_is(a));
+      return a.details ? top + "\n" + verify::to_table(shown, screen)
+                       : verify::to_overview(shown, verify::causes(shown), screen, top, a.output.level,
+                                             where_the_rest_is(a));
     });
   if (not_written) std::rethrow_exception(not_written);
 }
@@ -203,8 +203,8 @@ std::vector<const verify::Result*> smallest(const std::vector<verify::AuditMesh>
   return chosen;
 }
 
-}  // namespace
-
+// Writes each finding of the report as files (verify/report/forms.h), if --witnesses or --shrink says so; with --shrink
+// one for each subject and check, on a smaller mesh.
 void write_witnesses(const OutputArguments& a, const Audited& audited) {
   if (a.witnesses.empty() && a.shrink_seconds <= 0) return;
   const auto& [subjects, meshes, report, threads] = audited;
@@ -235,6 +235,8 @@ void write_witnesses(const OutputArguments& a, const Audited& audited) {
   if (a.shrink_seconds <= 0 && !findings.empty())
     say(stderr, "{} witnesses in {}\n", findings.size(), folder);
 }
+
+}  // namespace
 
 std::optional<verify::ErrorShape> shape_of(const Audited& audited, const verify::Result& row) {
   const verify::AuditMesh* mesh = mesh_of(row, audited.meshes);

@@ -77,11 +77,6 @@ class CommandTest : public testing::Test {
       EXPECT_EQ(o.out, "") << command << " " << arguments;
     }
   }
-  /// The exit code of a program in Python.
-  int python(const std::string& program) const {
-    write("check.py", program);
-    return command("/usr/bin/python3 check.py").code;
-  }
   std::string read(const std::filesystem::path& name) const { return contents_of(folder_ / name); }
   void write(const std::filesystem::path& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;

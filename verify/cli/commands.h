@@ -38,7 +38,6 @@ void add_hunt(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_mutants(CLI::App& app, int& exit_code);
 void add_tessellate(CLI::App& app, int& exit_code);
-void add_manual(CLI::App& app, int& exit_code);  // hidden: what the build makes the manual page of
 
 /// The whole of main(): parses, which runs the command, and says what is wrong. Returns the exit code, which the
 /// command has stored in `exit_code`.
@@ -56,7 +55,7 @@ int hand_over(const std::string& name);
 struct Example {
   std::string_view line, purpose;
 };
-/// Of a command, the most usual first: what --help and the manual page show besides the options. Each runs as it stands in
+/// Of a command, the most usual first: what --help shows besides the options. Each runs as it stands in
 /// an empty folder, but for those that name a file or a library of the user's.
 std::vector<Example> examples_of(std::string_view command);
 

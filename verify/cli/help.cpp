@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The examples of --help and of the manual page.
+// The examples of --help.
 
 #include <map>
 #include <memory>

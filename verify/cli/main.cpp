@@ -49,7 +49,6 @@ int run(int argc, char** argv) {
   add_external(app, exit_code, "bench",
                "Performance tracking: measure, compare, hold exact costs, draw the trend");
   add_external(app, exit_code, "shader", "A GLSL file of `audit --shader` as GLSL for Vulkan");
-  add_manual(app, exit_code);
 
   return run_program(app, argc, argv, exit_code);
 }

@@ -24,14 +24,10 @@ namespace {
 struct GenerateArguments {
   std::string name, file, seed;
   data::ReadOptions mesh;
-  bool ascii = false, list = false, stock = false;
+  bool ascii = false, list = false;
 };
 
-int print_list(const GenerateArguments& a) {
-  if (a.stock) {
-    for (const std::string& name : data::stock_shapes()) say("{}\n", name);
-    return kHeld;
-  }
+int print_list() {
   const auto meshes = data::named_meshes();
   std::size_t width = 0;
   for (const auto& mesh : meshes) width = std::max(width, mesh.name.size());
@@ -45,7 +41,7 @@ void note_left_out(const data::ControlMesh& mesh, const std::string& file) {
 }
 
 int generate(const GenerateArguments& a) {
-  if (a.list || a.stock) return print_list(a);
+  if (a.list) return print_list();
   if (a.name.empty()) throw CLI::RequiredError("NAME (or --list)");
   if (a.file.empty()) throw CLI::RequiredError("--output");
 
@@ -331,7 +327,6 @@ void add_generate(CLI::App& app, int& exit_code) {
   add_mesh_options(*command, a->mesh);
   command->add_flag("--ascii", a->ascii, "PLY as text");
   command->add_flag("--list", a->list, "Print the names and what they mean");
-  command->add_flag("--stock", a->stock, "Print the names of the stock shapes that an audit runs on");
   command->callback([a, &exit_code] { exit_code = generate(*a); });
 }
 

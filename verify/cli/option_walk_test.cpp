@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every option of every command does something: what the command says, its exit code or the files that it leaves are
 // others with it than without it; or it is said here to change nothing but the time, and changes nothing. (The options of
-// an audit of finished files: audit_files_test.cpp.)
+// an audit of finished files: sessions/files.sh.)
 #include <map>
 #include <regex>
 #include <set>
@@ -25,7 +25,7 @@ struct Command {
   std::map<std::string, Trial> trials;
   std::set<std::string> of_time_only = {};
   // What it takes more than 2000 rows to see (short_rows_test.cpp), and what depends on the machine
-  // (process_tree_test.cpp, misfortune_test.cpp).
+  // (process_tree_test.cpp, sessions/misfortune.sh).
   std::set<std::string> elsewhere = {};
 };
 
@@ -42,8 +42,7 @@ const std::vector<Command>& commands() {
         {"--seed", {"", "7"}},
         {"--scheme", {"quad-cube -o a.ply", "loop"}},
         {"--triangulate", {"quad-cube -o a.ply", "fan"}},
-        {"--list", {"", ""}},
-        {"--stock", {"", ""}}}},
+        {"--list", {"", ""}}}},
       {"tessellate",
        "bumpy:20 --depth 1 -o a.obj",
        {{"--scheme", {"", "catmull-clark"}},

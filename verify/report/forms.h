@@ -20,8 +20,7 @@ namespace limitcheck::verify {
 
 /// The report for a terminal: for each subject a line per check over all meshes (the worst mesh is shown),
 /// then the findings, each with its witness and the command that recomputes the expected value.
-///   all   a line for each mesh instead of the worst one only
-std::string to_table(const Report& report, const Screen& screen, bool all = false);
+std::string to_table(const Report& report, const Screen& screen);
 
 /// The part of it that is about one subject; of checks that nothing was looked at for only why.
 std::string check_lines(const Report& report, const std::string& subject, const Screen& screen);

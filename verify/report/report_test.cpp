@@ -185,25 +185,6 @@ TEST(Status, WordsAreStable) {
   EXPECT_EQ(word(Status::kError), "error");
 }
 
-TEST(Table, ShowsSeveralSubjectsSideBySide) {
-  Report r{.subjects = {"one", "two-with-a-long-name"}};
-  const auto add = [&](const char* subject, const char* mesh, const char* check, Status status) {
-    Result result{.subject = subject, .mesh = mesh, .check = check, .status = status};
-    r.results.push_back(result);
-  };
-  add("one", "a", "positions", Status::kHeld);
-  add("one", "b", "positions", Status::kFinding);
-  add("two-with-a-long-name", "a", "positions", Status::kHeld);
-  add("two-with-a-long-name", "a", "normals", Status::kCrash);
-  const std::string table = to_table(r, {});
-  EXPECT_TRUE(says(table,
-                   "  check                     one            two-with-a-long-name\n"
-                   "  positions                 FINDING        held\n"
-                   "  normals                                  CRASH\n"));
-  r.subjects.pop_back();
-  EXPECT_FALSE(says(to_table(r, {}), "  check                     one "));
-}
-
 // As a merged one may be: its parts say of a row that it is the host's, and nothing else is wrong.
 TEST(AReport, DoesNotHoldWhereTheHostLackedSomething) {
   Report report;

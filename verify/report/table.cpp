@@ -170,23 +170,6 @@ void add_finding(std::string& out, const Report& report, int number, const Line&
   if (!truth.empty()) out += fmt::format("     {}\n", truth);
 }
 
-/// All subjects side by side: the worst verdict of each check over the meshes.
-std::string matrix(const Report& report, const Screen& screen) {
-  std::vector<Column> columns{{"check", 25}};
-  std::vector<TableRow> rows;
-  for (std::size_t k = 0; k < report.subjects.size(); ++k) {
-    columns.push_back({report.subjects[k], 14});
-    for (const Line& line : lines_of(report, report.subjects[k])) {
-      auto row = std::ranges::find_if(rows, [&](const TableRow& r) { return r.cells[0].text == line.check; });
-      if (row == rows.end()) row = rows.insert(rows.end(), TableRow{{TableCell{line.check}}});
-      row->cells.resize(k + 1);
-      row->cells.push_back(painted(line.shown->status));
-    }
-  }
-  for (TableRow& row : rows) row.cells.resize(columns.size());
-  return "\n" + table_in_blocks(columns, rows, screen, 2);
-}
-
 // Why meshes were not tessellated at all though nothing is wrong, and how places were found: each sentence once.
 std::string reasons(const Report& report, const std::string& subject) {
   std::map<std::pair<Status, std::string>, std::vector<std::string>> meshes;
@@ -201,8 +184,7 @@ std::string reasons(const Report& report, const std::string& subject) {
   return out;
 }
 
-std::string lines_table(const Report& report, const std::vector<Line>& lines, const Screen& screen,
-                        bool all) {
+std::string lines_table(const Report& report, const std::vector<Line>& lines, const Screen& screen) {
   const bool plan = report.depths == "plan";
   std::vector<Column> columns{{"check", 25},
                               {"verdict", 14},
@@ -216,12 +198,6 @@ std::string lines_table(const Report& report, const std::vector<Line>& lines, co
   columns.push_back({"where", 0, false, 1, 3});
   std::vector<TableRow> rows;
   for (const Line& line : lines) {
-    if (all) {
-      for (const Result* r : line.results)
-        rows.push_back(row_of(report, *r, r->bad, r->of, r->status == Status::kHeld ? "1/1" : "0/1",
-                              depths_in_short({&r, 1})));
-      continue;
-    }
     std::int64_t bad = 0, of = 0;
     for (const Result* r : line.results) {
       bad += r->bad;
@@ -272,10 +248,10 @@ std::string check_lines(const Report& report, const std::string& subject, const 
   const std::string why_not = reasons(report, subject), not_looked = not_looked_at(report, lines);
   std::erase_if(lines, [](const Line& l) { return l.looked_at == 0; });
   if (lines.empty() && !why_not.empty()) return subject + "\n" + why_not;
-  return subject + "\n" + lines_table(report, lines, screen, false) + not_looked + why_not;
+  return subject + "\n" + lines_table(report, lines, screen) + not_looked + why_not;
 }
 
-std::string to_table(const Report& report, const Screen& screen, bool all) {
+std::string to_table(const Report& report, const Screen& screen) {
   const bool plan = report.depths == "plan";
   std::string out = header(report);
   std::vector<Line> findings;
@@ -287,7 +263,7 @@ std::string to_table(const Report& report, const Screen& screen, bool all) {
       out += why_not;
       continue;
     }
-    out += lines_table(report, lines, screen, all);
+    out += lines_table(report, lines, screen);
     for (Line& line : lines)
       if (line.bad_meshes > 0) findings.push_back(std::move(line));
     if (plan) out += fmt::format("  depths looked at: {}\n", depths_in_full(report, subject));
@@ -301,8 +277,6 @@ std::string to_table(const Report& report, const Screen& screen, bool all) {
   out = wrapped(out, screen.width);
   for (std::size_t k = 0; k < findings.size(); ++k)  // as they are, with commands to be copied
     add_finding(out, report, static_cast<int>(k) + 1, findings[k], screen.width);
-
-  if (report.subjects.size() > 1) out += matrix(report, screen);
 
   if (!report.printed.empty()) out += "\nPrinted by subjects:\n" + report.printed;
   return out + wrapped("\n" + changes_line(report) + summary(report), screen.width);

@@ -7,7 +7,6 @@
 #include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -53,21 +52,6 @@ TEST_F(EvalCommand, TheCentreOfARegularFaceHasThePapersWeights) {
       EXPECT_TRUE(json[key][0].is_string()) << key;
     }
   }
-}
-
-TEST_F(EvalCommand, ASecondWayToWriteAPointGivesTheSameAnswer) {
-  const auto position = [&](const std::string& point) {
-    return json_of("eval bumpy:200 17 " + point + " --json", 0)["position"];
-  };
-  EXPECT_EQ(position("1/4 1/2"), position("0.25 0.5"));
-  EXPECT_EQ(position("1/4 1/2"), position("2/8 5e-1"));
-}
-
-TEST_F(EvalCommand, TakesEveryFaceOfAValidMesh) {
-  // Faces whose surroundings touch themselves in a vertex.
-  for (const char* arguments :
-       {"eval torus:3:3 0 1/3 1/3", "eval random:360:60 1 1/3 1/3", "eval octahedron 0 1/3 1/3"})
-    EXPECT_EQ(run(arguments).code, 0) << arguments;
 }
 
 TEST_F(EvalCommand, GivesEveryQuantityARadiusOfItsOwn) {
@@ -173,7 +157,6 @@ TEST_F(EvalCommand, HasWarrensWeightsToo) {
     return length;
   };
   EXPECT_NEAR(first(" --weights warren") / first(""), 0.5 * 55 / 24, 1e-14);
-  EXPECT_EQ(run("eval octahedron 0 0 0 --weights hoppe").code, 2);
 }
 
 constexpr int kScale = 3000;
@@ -226,146 +209,6 @@ TEST_F(EvalCommand, KnowsTheAnswersOfCatmullClarksSurface) {
   }
   EXPECT_EQ(cases, 23);
   RecordProperty("samples", samples);
-}
-
-TEST_F(EvalCommand, TakesACornerWhereAFaceIsNoQuad) {
-  const auto position = [&](const std::string& arguments) {
-    return json_of("eval " + arguments + " --json", 0)["position"];
-  };
-  // The middle of a face is the corner (1, 1) of all its quads, that of an edge (1, 0) of one and (0, 1) of
-  // the next.
-  EXPECT_EQ(position("prism:5 0:0 1 1"), position("prism:5 0:3 1 1"));
-  EXPECT_EQ(position("prism:5 0:1 1 0"), position("prism:5 0:2 0 1"));
-  EXPECT_EQ(position("octahedron 3:2 1 0 --scheme catmull-clark"),
-            position("octahedron 3:0 0 1 --scheme catmull-clark"));
-  EXPECT_NE(position("octahedron 3:2 1/4 1/4 --scheme catmull-clark"), position("octahedron 3 1/4 1/4"));
-
-  const std::string text = run("eval prism:5 0:2 1/3 1/4").out;
-  EXPECT_TRUE(
-      text.starts_with("scheme: catmull-clark (not all faces are triangles)\n"
-                       "prism:5 face 0 corner 2 at (1/3, 1/4)\n"))
-      << text;
-  EXPECT_TRUE(says(text, "d/du "));
-  EXPECT_TRUE(says(text, "d2/dudv "));
-  EXPECT_TRUE(run("eval octahedron 0 0 0").out.starts_with("scheme: loop (all faces are triangles)\n"));
-  EXPECT_EQ(json_of("eval octahedron 0 0 0 --json")["scheme"], "loop");
-  EXPECT_EQ(json_of("eval prism:5 0 0 0 --triangulate fan --json")["faces_cut"], 7);
-}
-
-TEST_F(EvalCommand, SaysWhatIsWrongWithAFaceAndItsParameters) {
-  const auto error = [&](const std::string& arguments) {
-    const Outcome o = run("eval " + arguments, 2);
-    EXPECT_EQ(o.out, "") << arguments;
-    return o.err;
-  };
-  EXPECT_TRUE(says(error("prism:5 2:0 0 0"), "face 2 is a quad"));
-  EXPECT_TRUE(says(error("prism:5 0 0 0"), "FACE is 0:0 to 0:4"));
-  EXPECT_TRUE(says(error("prism:5 0:5 0 0"), "face 0 has corners 0 to 4, not 5"));
-  EXPECT_TRUE(says(error("prism:5 0:-1 0 0"), "face 0 has corners 0 to 4, not -1"));
-  EXPECT_TRUE(says(error("prism:5 7 0 0"), "has faces 0 to 6, not 7"));
-  EXPECT_TRUE(says(error("prism:5 2 5/4 0"), "must be in 0..1"));
-  EXPECT_TRUE(says(error("prism:5 2 0 -1/4"), "must be in 0..1"));
-  EXPECT_TRUE(says(error("prism:5 0: 0 0"), "FACE:CORNER"));
-  EXPECT_TRUE(says(error("prism:5 0:1x 0 0"), "FACE:CORNER"));
-  EXPECT_TRUE(says(error("octahedron 0:0 0 0"), "for Catmull-Clark's scheme"));
-  EXPECT_TRUE(says(error("prism:5 2 0 0 --weights warren"), "--weights warren is for Loop's scheme"));
-  const std::string loop = error("prism:5 2 0 0 --scheme loop");
-  for (const char* part : {"7 of 7 faces are no triangles", "leave out --scheme loop", "--triangulate fan"})
-    EXPECT_TRUE(says(loop, part));
-}
-
-TEST_F(EvalCommand, RefusesBadInputWithExitCodeTwo) {
-  write("far.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_EQ(run("eval far.obj 0 1/3 1/3").code, 0);
-  EXPECT_TRUE(says(run("eval far.obj 0 1/3 1/3 --precision float").err, "vertex 1"));
-
-  expect_refused("eval", {"", "tetrahedron", "tetrahedron 4 0 0", "tetrahedron -1 0 0",
-                          "tetrahedron 0 2/3 2/3", "tetrahedron 0 -1/3 1/3", "tetrahedron 0 1/0 0",
-                          "tetrahedron 0 abc 0", "tetrahedron 0 nan 0", "tetrahedron 0 0 0 --digits 0",
-                          "tetrahedron 0 0 0 --digits 1000000000", "tetrahedron 99999999999999999999 0 0",
-                          "far.obj 0 1/3 1/3 --precision float", "no-such-file.obj 0 0 0"});
-}
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> list{""};
-  for (const char c : line)
-    if (c == ',')
-      list.emplace_back();
-    else
-      list.back() += c;
-  return list;
-}
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> list;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) list.push_back(line);
-  return list;
-}
-
-// Of each line what eval says of its point, in double and certified, as CSV and as JSON.
-TEST_F(EvalCommand, EveryLineOfAFileIsThePoint) {
-  for (const std::string mesh : {"bumpy:200", "dual:icosahedron"}) {
-    const bool loop = mesh == "bumpy:200";
-    const std::vector<std::string> points =
-        loop ? std::vector<std::string>{"17,1/4,1/2", "0, 0.1 ,0.2", "199,1/3,1/3"}
-             : std::vector<std::string>{"0:1,1/4,1/2", "1:2,0.1,0.2", "2:0,1/3,1/3"};
-    std::string file = "face,u,v\n# a comment\n";
-    for (const std::string& point : points) file += point + "\r\n";
-    write("points.csv", file);
-    const auto csv = lines(run("eval " + mesh + " --points points.csv --derivatives 2").out);
-    const auto exact =
-        lines(run("eval " + mesh + " --points points.csv --derivatives 2 --certified --json").out);
-    ASSERT_EQ(csv.size(), points.size() + 1);
-    ASSERT_EQ(exact.size(), points.size());
-    EXPECT_TRUE(csv[0].starts_with("face,u,v,x,y,z,normal_x,"));
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      std::string point = points[k];
-      std::erase(point, ' ');
-      std::replace(point.begin(), point.end(), ',', ' ');
-      const auto alone = json_of("eval " + mesh + " " + point + " --json", 0);
-      const auto certified = nlohmann::json::parse(exact[k]);
-      std::vector<std::string> expected;
-      for (const char* key : {"position", "normal", "d1", "d2", "d11", "d12", "d22"}) {
-        EXPECT_EQ(certified[key], alone[key]) << key;
-        for (const auto& x : alone[key]) expected.push_back(x.get<std::string>());
-      }
-      for (const char* key : {"gaussian_curvature", "mean_curvature"}) {
-        EXPECT_EQ(certified[key], alone[key]) << key;
-        expected.push_back(alone[key].get<std::string>());
-      }
-      const auto got = cells(csv[k + 1]);
-      ASSERT_EQ(got.size(), expected.size() + 3);
-      // Doubles: StamError bounds derivatives by 1e-12 of the diagonal; curvatures are quotients of some of them.
-      for (std::size_t c = 0; c < expected.size(); ++c)
-        EXPECT_NEAR(std::stod(got[c + 3]), std::stod(expected[c]), 1e-9) << csv[0] << ", column " << c + 3;
-    }
-  }
-}
-
-TEST_F(EvalCommand, ALineThatIsNoPointIsNamedAndTheLinesBeforeItAreWritten) {
-  const auto fails = [&](const std::string& points, const std::string& words) {
-    write("points.csv", points);
-    const Outcome o = run("eval icosahedron --points points.csv", 2);
-    EXPECT_TRUE(says(o.err, words)) << o.err;
-    return lines(o.out).size();
-  };
-  EXPECT_EQ(fails("0,0,0\n0,1,x\n0,0,0\n", "points.csv:2: POINT_UNUSABLE: 'x' is not a number"), 2U);
-  EXPECT_EQ(fails("\n\n20,0,0", "points.csv:3: POINT_UNUSABLE: icosahedron has faces 0 to 19, not 20"), 1U);
-  EXPECT_EQ(fails("0,1,1e-3\n", "points.csv:1: POINT_UNUSABLE: l1, l2 must be >= 0 and l1 + l2 <= 1"), 1U);
-  EXPECT_EQ(fails("0,0\n", "points.csv:1: POINT_UNUSABLE: a line is FACE,U,V, not '0,0'"), 1U);
-  EXPECT_EQ(fails("0,0,0,0\n", "a line is FACE,U,V"), 1U);
-  EXPECT_EQ(fails("0,0,nan\n", "points.csv:1: POINT_UNUSABLE"), 1U);
-  EXPECT_TRUE(says(run("eval icosahedron --points .", 2).err, "FILE_NOT_READABLE"));
-  EXPECT_TRUE(says(run("eval icosahedron", 2).err, "FACE U V are missing"));
-  // Many blocks: each line in its place.
-  std::string many;
-  for (int k = 0; k < 300000; ++k) many += fmt::format("{},0.25,{}\n", k % 20, k % 3 / 4.0);
-  write("points.csv", many);
-  const auto out = lines(run("eval icosahedron --points points.csv").out);
-  ASSERT_EQ(out.size(), 300001U);
-  for (int k = 0; k < 300000; k += 997)
-    EXPECT_TRUE(
-        out[static_cast<std::size_t>(k) + 1].starts_with(fmt::format("{},0.25,{},", k % 20, k % 3 / 4.0)));
 }
 
 }  // namespace

@@ -82,30 +82,25 @@ std::vector<Triangle> hull(const std::vector<std::array<double, 3>>& directions)
 
 }  // namespace
 
-ControlMesh bumpy_sphere_of_vertices(int vertices, std::uint64_t seed, double rmin, double rmax) {
-  require(vertices >= 4 && vertices <= 10'000'002,
-          "a bumpy sphere has 4 to 10000002 vertices, not " + std::to_string(vertices));
+ControlMesh bumpy_sphere(int faces, std::uint64_t seed, double rmin, double rmax) {
+  require(faces >= 4 && faces % 2 == 0 && faces <= 20'000'000,
+          "a bumpy sphere has an even number of faces from 4 to 20 million, not " + std::to_string(faces));
   require(rmin > 0 && rmin <= rmax && std::isfinite(rmax), "the radii need 0 < rmin <= rmax");
 
+  const int vertices = faces / 2 + 2;
   SplitMix64 random(seed);
   ControlMesh mesh;
   mesh.positions.reserve(vertices);
   for (int i = 0; i < vertices; ++i) mesh.positions.push_back(random_direction(random));
   mesh.faces = Faces(hull(mesh.positions));
   // With very few points the hull may miss the origin or a direction may occur twice; neither is a sphere.
-  require(mesh.faces.size() == 2 * static_cast<std::size_t>(vertices) - 4,
+  require(mesh.faces.size() == static_cast<std::size_t>(faces),
           "these directions have no triangulation with F = 2V - 4; try another seed");
   for (auto& position : mesh.positions) {
     const double radius = rmin + (rmax - rmin) * random.unit();
     for (double& coordinate : position) coordinate *= radius;
   }
   return mesh;
-}
-
-ControlMesh bumpy_sphere(int faces, std::uint64_t seed, double rmin, double rmax) {
-  require(faces >= 4 && faces % 2 == 0 && faces <= 20'000'000,
-          "a bumpy sphere has an even number of faces from 4 to 20 million, not " + std::to_string(faces));
-  return bumpy_sphere_of_vertices(faces / 2 + 2, seed, rmin, rmax);
 }
 
 }  // namespace limitcheck::data

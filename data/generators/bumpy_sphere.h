@@ -18,7 +18,4 @@ namespace limitcheck::data {
 ///   throws   InputError NAME_BAD_PARAMETER
 ControlMesh bumpy_sphere(int faces, std::uint64_t seed, double rmin = 0.5, double rmax = 1.5);
 
-/// The same by the number of vertices, at least 4: bumpy_sphere(2 * vertices - 4, ...).
-ControlMesh bumpy_sphere_of_vertices(int vertices, std::uint64_t seed, double rmin = 0.5, double rmax = 1.5);
-
 }  // namespace limitcheck::data

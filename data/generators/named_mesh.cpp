@@ -112,8 +112,6 @@ const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       {"bumpy:FACES[:SEED]", "the paper's bumpy sphere, radii 0.5 to 1.5, FACES even; seed 1 unless given",
        [](P p) { return bumpy_sphere(p.count(0), p.at(1)); }},
-      {"bumpy-vertices:V[:SEED]", "the same with 2V - 4 faces",
-       [](P p) { return bumpy_sphere_of_vertices(p.count(0), p.at(1)); }},
       {"tetrahedron", "4 vertices of valence 3", plain(tetrahedron)},
       {"octahedron", "6 vertices of valence 4", plain(octahedron)},
       {"icosahedron", "12 vertices of valence 5", plain(icosahedron)},

@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #include <fstream>
 
 #include "data/error.h"
-#include "data/validate.h"
 
 namespace limitcheck::data {
 namespace {
@@ -42,88 +40,10 @@ TEST(Numeral, FiftyDigitsKeepFortyTwo) {
 }
 
 TEST(Numeral, WhatIsNotANumberIsRefused) {
-  for (const char* text : {"", "-", "a", "1/0", "1/", "/2", "1/2/3", "1 ", " 1", "1e", "1e99999", "nan",
-                           "inf", "0x10", "1.2.3", "--1", "1/0.0", "."}) {
+  for (const char* text : {"", "-", "a", "1/0", "1/", "/2", "1/2/3", "1 ", " 1", "1e", "1e99999",
+                           "1e-999999999999", "nan", "inf", "0x10", "1.2.3", "--1", "1/0.0", "."}) {
     EXPECT_THROW(parse<Rational>(text), ArgumentError) << text;
     EXPECT_THROW(parse<double>(text), ArgumentError) << text;
-  }
-}
-
-TEST(KnownAnswers, AllCasesAreLoaded) {
-  const KnownAnswers answers = load_known_answers();
-  EXPECT_EQ(answers.interior_rings.size(), 6u);
-  EXPECT_EQ(answers.boundary_rings.size(), 4u);
-  EXPECT_EQ(answers.surfaces.size(), 15u);
-  EXPECT_EQ(answers.closed_meshes.size(), 2u);
-  EXPECT_EQ(answers.basis.size(), 6u);
-  for (const auto& ring : answers.interior_rings)
-    EXPECT_EQ(ring.ring.size(), static_cast<std::size_t>(ring.valence));
-  for (const auto& ring : answers.boundary_rings)
-    EXPECT_EQ(ring.ring.size(), static_cast<std::size_t>(ring.faces) + 1);
-}
-
-TEST(KnownAnswers, EveryMeshIsValid) {
-  const KnownAnswers answers = load_known_answers();
-  for (const auto& surface : answers.surfaces) {
-    const auto findings = validate(control_mesh(surface.vertices, surface.faces));
-    EXPECT_TRUE(findings.empty()) << surface.id << ": " << findings[0].message;
-    ASSERT_LT(static_cast<std::size_t>(surface.face), surface.faces.size());
-  }
-  for (const auto& mesh : answers.closed_meshes) {
-    EXPECT_TRUE(validate(control_mesh(mesh.vertices, mesh.faces)).empty()) << mesh.id;
-    EXPECT_EQ(mesh.step1_edge_points.size(), 3 * mesh.faces.size() / 2);
-  }
-}
-
-// Identities that a number read from the wrong place would break.
-TEST(KnownAnswers, TheNumbersAreInTheirPlaces) {
-  const KnownAnswers answers = load_known_answers();
-  for (const auto& basis : answers.basis) {
-    Rational sum, sum_dalpha, sum_dbeta;
-    for (std::size_t i = 0; i < 12; ++i) {
-      sum += parse<Rational>(basis.b[i]);
-      sum_dalpha += parse<Rational>(basis.db_dalpha[i]);
-      sum_dbeta += parse<Rational>(basis.db_dbeta[i]);
-    }
-    EXPECT_EQ(sum, 1) << basis.id;
-    EXPECT_EQ(sum_dalpha, 0) << basis.id;
-    EXPECT_EQ(sum_dbeta, 0) << basis.id;
-  }
-  for (const auto& ring : answers.boundary_rings) {  // [D1] along = r_0 - r_K, limit = (4 v + r_0 + r_K) / 6
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto v = parse<Rational>(ring.center[axis]), first = parse<Rational>(ring.ring.front()[axis]),
-                 last = parse<Rational>(ring.ring.back()[axis]);
-      EXPECT_EQ(parse<Rational>(ring.along[axis]), first - last) << ring.id;
-      EXPECT_LT(abs(parse<Rational>(ring.limit_position[axis]) - (4 * v + first + last) / 6),
-                Rational("1/1" + std::string(40, '0')))
-          << ring.id;
-    }
-  }
-  const auto orthogonal = [](const Numeral3& a, const Numeral3& b) {
-    const auto x = parse<Float50>(a), y = parse<Float50>(b);
-    return abs(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]) < Float50("1e-38");
-  };
-  for (const auto& ring : answers.interior_rings) {
-    EXPECT_TRUE(orthogonal(ring.unit_normal, ring.c) && orthogonal(ring.unit_normal, ring.s)) << ring.id;
-    // [C17] u1 = C, u2 = cos(2 pi / n) C + sin(2 pi / n) S
-    const Float50 angle = 2 * boost::math::constants::pi<Float50>() / ring.valence;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto c = parse<Float50>(ring.c[axis]), s = parse<Float50>(ring.s[axis]);
-      EXPECT_LT(abs(parse<Float50>(ring.paper_u1[axis]) - c), Float50("1e-38")) << ring.id;
-      EXPECT_LT(abs(parse<Float50>(ring.paper_u2[axis]) - (cos(angle) * c + sin(angle) * s)),
-                Float50("1e-38"))
-          << ring.id;
-    }
-  }
-  for (const auto& surface : answers.surfaces) {
-    for (const auto& sample : surface.samples) {
-      EXPECT_EQ(parse<Rational>(sample.barycentric[0]) + parse<Rational>(sample.barycentric[1]) +
-                    parse<Rational>(sample.barycentric[2]),
-                1);
-      EXPECT_TRUE(orthogonal(sample.unit_normal, sample.d_dl1) &&
-                  orthogonal(sample.unit_normal, sample.d_dl2))
-          << surface.id;
-    }
   }
 }
 

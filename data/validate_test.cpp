@@ -147,20 +147,6 @@ TEST(Validate, AFaceLeftOutTakesNoVertexWithItThatWasWhole) {
   for (const MeshFinding& finding : findings) EXPECT_EQ(finding.fault, MeshFault::kIndexOutOfRange);
 }
 
-TEST(Validate, EveryCoordinateMustBeFinite) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  for (const double bad : {nan, inf, -inf}) {
-    for (int axis = 0; axis < 3; ++axis) {
-      ControlMesh mesh = tetrahedron();
-      mesh.positions[2][axis] = bad;
-      const auto findings = validate(mesh);
-      ASSERT_EQ(findings.size(), 1u);
-      EXPECT_EQ(findings[0].fault, MeshFault::kNotFinite);
-      EXPECT_EQ(findings[0].vertex, 2);
-    }
-  }
-}
-
 TEST(Validate, TheSameThreeVerticesTwiceAreADuplicateInAnyOrder) {
   constexpr std::array<std::array<int, 3>, 4> orders = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}}};
   for (std::int64_t original = 0; original < 4; ++original) {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <clocale>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -103,18 +102,6 @@ TEST(Read, DecimalsAreCorrectlyRounded) {
   EXPECT_EQ(p[1], (std::array<double, 3>{0x1p53, 0x1p-1074, 0.0}));
   EXPECT_TRUE(std::signbit(p[1][2]));
   EXPECT_EQ(p[2], (std::array<double, 3>{0x1.0000000000002p-1, 0x1.fffffffffffffp1023, 3.0}));
-}
-
-TEST(Read, TheLocaleDoesNotMatter) {
-  // C.UTF-8 has a point too; a locale with a comma is used where the machine has one.
-  for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE"}) {
-    if (std::setlocale(LC_ALL, locale) != nullptr) break;
-  }
-  const ControlMesh mesh = read_mesh("v 0.5 1e-999 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", FileFormat::kObj, "text");
-  std::setlocale(LC_ALL, "C");
-  EXPECT_EQ(mesh.positions[0][0], 0.5);
-  EXPECT_EQ(error_of("v 0,5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
-            "cage.obj:1: FILE_SYNTAX: x is not a number: \"0,5\"");
 }
 
 TEST(Read, PolygonsStayWhatTheyAreUnlessTheyAreToBeCut) {

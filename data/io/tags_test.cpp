@@ -26,12 +26,6 @@ ControlMesh read_cube(const std::string& tags) {
   return read_mesh(kCube + tags, FileFormat::kObj, "cube.obj");
 }
 
-// "CODE:line" of the error, or "read".
-std::string error_of_tags(const std::string& tags) {
-  const auto error = thrown<InputError>([&] { read_cube(tags); });
-  return error ? error->code() + ":" + std::to_string(error->line()) : "read";
-}
-
 TEST(Tags, OfObjCountVerticesFromZero) {
   const ControlMesh mesh = read_cube(
       "t crease 2/1/0 4 5 2.5\nt crease 4/1/0 5 6 7 6 10\nt crease 4/2/0 4 7 0 4 1 0.25\nt corner 1/1/0 0 3\n"
@@ -52,8 +46,6 @@ TEST(Tags, OfObjHaveFractions) {
   const ControlMesh mesh = read_cube("t crease 2/1/0 4 5 23/10\nt corner 1/1/0 0 1/3\n");
   EXPECT_EQ(mesh.sharpness.edges.at(0).sharpness, 2.3F);
   EXPECT_EQ(mesh.sharpness.vertices.at(0).sharpness, 1.F / 3);
-  for (const char* wrong : {"1/0", "1/", "/2", "1/-2", "1/2/3", "x"})
-    EXPECT_EQ(error_of_tags(std::string("t corner 1/1/0 0 ") + wrong + "\n"), "FILE_SYNTAX:15") << wrong;
 }
 
 TEST(Tags, OfObjHaveHoles) {
@@ -63,8 +55,6 @@ TEST(Tags, OfObjHaveHoles) {
   EXPECT_EQ(read_mesh(mesh_content(mesh, FileFormat::kObj), FileFormat::kObj, "again.obj"), mesh);
   EXPECT_THROW(mesh_content(mesh, FileFormat::kPly), InputError);
   EXPECT_THROW(mesh_content(mesh, FileFormat::kOff), InputError);
-  EXPECT_EQ(error_of_tags("t hole 1/0/0 6\n"), "MESH_HOLE:15");
-  EXPECT_EQ(error_of_tags("t hole 1/0/0 -1\n"), "MESH_HOLE:15");
   // Both triangles of a quad that is cut.
   const auto cut =
       read_mesh(kCube + "t hole 1/0/0 2\n", FileFormat::kObj, "cube.obj", {.polygons = Triangulation::kFan});
@@ -72,23 +62,6 @@ TEST(Tags, OfObjHaveHoles) {
   ControlMesh wrong = mesh;
   wrong.holes = {4, 1, 6};
   EXPECT_EQ(validate(wrong).size(), 2U);
-}
-
-TEST(Tags, ThatAreWrongAreNamedWithTheirLine) {
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 6 2\n"), "MESH_SHARPNESS:15");  // a diagonal
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 8 2\n"), "MESH_SHARPNESS:15");  // no vertex
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 2\nt crease 2/1/0 5 4 3\n"), "MESH_SHARPNESS:16");
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 2\nt crease 2/1/0 5 4 2\n"), "read");
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 -1\n"), "MESH_SHARPNESS:15");
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5 nan\n"), "MESH_SHARPNESS:15");
-  EXPECT_EQ(error_of_tags("t corner 1/1/0 8 1\n"), "MESH_SHARPNESS:15");
-  EXPECT_EQ(error_of_tags("t corner 1/1/0 4 1\nt corner 1/1/0 4 2\n"), "MESH_SHARPNESS:16");
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 4 5\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of_tags("t crease 2/1 4 5 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of_tags("t crease 3/1/0 4 5 6 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of_tags("t crease 2/1/0 -1 5 1\n"), "FILE_SYNTAX:15");
-  EXPECT_EQ(error_of_tags("t interpolateboundary 1/0/0 3\n"), "FILE_UNSUPPORTED:15");
-  EXPECT_EQ(error_of_tags("t creasemethod 0/0/1 soft\n"), "FILE_UNSUPPORTED:15");
 }
 
 // Of what moves no point nothing is lost; what does is refused by its name.
@@ -102,10 +75,8 @@ TEST(Tags, WithoutAMeaningAreReadOverWithANoteAndEditsAreRefused) {
   }
   for (const std::string edit : {"vertexedit", "edgeedit", "faceedit"}) {
     const std::string tag = "t " + edit + " 2/1/3 4 0 1 add value sharpness\n";
-    EXPECT_TRUE(error_of_tags(tag).starts_with("FILE_UNSUPPORTED:")) << edit;
     EXPECT_TRUE(says(refusal_of<InputError>([&] { read_cube(tag); }), edit + "\" is a hierarchical edit"));
   }
-  EXPECT_EQ(error_of_tags("t unheardof 1/0/0 1\n"), "FILE_UNSUPPORTED:15");
 }
 
 // A sheet of 4 x 4 squares, or of 32 triangles, with its corner (0, 0) at vertex 0.
@@ -178,24 +149,6 @@ TEST(Tags, AreNotLostInAFormatWithoutPlace) {
   EXPECT_THROW((void)mesh_content(mesh, FileFormat::kOff), InputError);
   EXPECT_THROW((void)mesh_content(creased_cube(2), FileFormat::kOff), InputError);
   EXPECT_NO_THROW((void)mesh_content(creased_cube(2), FileFormat::kPly));
-}
-
-TEST(Tags, OfGeneratedMeshesAreValid) {
-  for (const std::uint64_t s : {0, 1, 9, 10, 50}) {
-    EXPECT_TRUE(validate(creased_cube(s)).empty());
-    EXPECT_EQ(creased_cube(s).sharpness.edges.size(), 12U);
-    EXPECT_TRUE(validate(crease_ring(s)).empty());
-    EXPECT_EQ(crease_ring(s).sharpness.edges.size(), 12U);
-  }
-  for (const bool triangles : {false, true})
-    for (int n = 3; n < 12; ++n) {
-      EXPECT_TRUE(validate(dart(n, triangles)).empty());
-      EXPECT_EQ(dart(n, triangles).sharpness.edges.size(), 1U);
-      EXPECT_TRUE(validate(corner(n, triangles)).empty());
-      EXPECT_EQ(corner(n, triangles).sharpness.edges.size(), static_cast<std::size_t>(n));
-    }
-  EXPECT_THROW(dart(2, false), InputError);
-  EXPECT_THROW(corner(1, true), InputError);
 }
 
 }  // namespace

@@ -24,8 +24,7 @@ struct InteriorRingAnswer {
   Numeral3 center;
   std::vector<Numeral3> ring;
   Numeral3 limit_position;
-  Numeral3 c, s;                ///< sum of cos(2 pi i/n) v_i and of sin(2 pi i/n) v_i, i = 1..n
-  Numeral3 paper_u1, paper_u2;  ///< equations (4), (5) without their zero denominators
+  Numeral3 c, s;  ///< sum of cos(2 pi i/n) v_i and of sin(2 pi i/n) v_i, i = 1..n
   Numeral3 unit_normal;
 };
 
@@ -40,24 +39,6 @@ struct BoundaryRingAnswer {
   Numeral3 along;   ///< r_0 - r_K
   Numeral3 across;  ///< points into the surface
   Numeral3 unit_normal;
-};
-
-/// One point of a surface: l0, l1, l2 with sum 1, and what lies there.
-struct SurfaceSample {
-  Numeral3 barycentric;
-  Numeral3 position;
-  Numeral3 d_dl1, d_dl2;
-  Numeral3 unit_normal;
-};
-
-/// A small mesh and samples on one of its faces (corners c0, c1, c2 = faces[face]).
-struct SurfaceAnswer {
-  std::string id;
-  bool at_boundary = false;  ///< the face touches the boundary
-  std::vector<Numeral3> vertices;
-  std::vector<std::array<std::int32_t, 3>> faces;
-  int face = 0;
-  std::vector<SurfaceSample> samples;
 };
 
 /// A closed mesh with exact rational answers.
@@ -84,11 +65,10 @@ struct BasisAnswer {
   std::array<Numeral, 12> b, db_dalpha, db_dbeta;
 };
 
-/// All of Loop's without sharp edges.
+/// Loop's without sharp edges, but for points of surfaces.
 struct KnownAnswers {
   std::vector<InteriorRingAnswer> interior_rings;
   std::vector<BoundaryRingAnswer> boundary_rings;
-  std::vector<SurfaceAnswer> surfaces;
   std::vector<ClosedMeshAnswer> closed_meshes;
   std::vector<BasisAnswer> basis;
 };
@@ -113,10 +93,10 @@ struct SharpnessAnswer {
 /// A mesh and samples on it.
 struct QuadAnswer {
   std::string id;
-  std::string scheme;     ///< "catmull-clark" or "loop"
-  std::string boundary;   ///< "edge": vertices of one face are smooth; "edge+corner": they are held
-  std::string triangles;  ///< "catmark" or "smooth"
-  std::string creasing;   ///< "uniform" or "chaikin"
+  std::string scheme = "loop";        ///< or "catmull-clark"
+  std::string boundary = "edge";      ///< vertices of one face are smooth; "edge+corner": they are held
+  std::string triangles = "catmark";  ///< or "smooth"
+  std::string creasing = "uniform";   ///< or "chaikin"
   std::vector<SharpnessAnswer> sharp_edges, sharp_vertices;
   std::vector<Numeral3> vertices;
   Faces faces;
@@ -127,13 +107,12 @@ struct QuadAnswer {
 
 // Both throw InputError (FILE_CANNOT_OPEN, FILE_SYNTAX) if the file is absent or not of its form.
 
-/// Loop's, of smooth surfaces: the cases of known_answers.json.
+/// The cases of known_answers.json that are no points of surfaces.
 KnownAnswers load_known_answers(const std::filesystem::path& file = data_file("known_answers.json"));
-/// Catmull-Clark's, and Loop's with sharp edges: the cases of known_answers_catmull_clark.json.
+/// Points of surfaces of both schemes, with sharp edges and without.
 std::vector<QuadAnswer> load_quad_answers();
 
 /// The vertices rounded to double, with the faces: what an evaluator takes.
-ControlMesh control_mesh(const std::vector<Numeral3>& vertices,
-                         const std::vector<std::array<std::int32_t, 3>>& faces);
+ControlMesh control_mesh(const std::vector<Numeral3>& vertices, const Faces& faces);
 
 }  // namespace limitcheck::data

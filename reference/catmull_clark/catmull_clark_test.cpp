@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What makes a mask right, whatever its numbers: a step of subdivision leaves a limit where it is and shrinks
 // a tangent by its eigenvalue. And the numbers that are known.
-// The two evaluators of Catmull-Clark against each other and against exact rationals, over valences,
+// The two evaluators of Catmull-Clark against each other, over valences,
 // boundaries, faces of many corners and points very near a vertex.
 #include <gtest/gtest.h>
 
@@ -20,13 +20,16 @@
 #include "reference/loop/refine.h"
 #include "reference/number/number_exact.h"
 #include "reference/point/normal.h"
+#include "reference/surface/test_methods.h"
 
 namespace limitcheck::reference::catmull_clark {
 namespace {
 
+enum class Kind { kInside, kBoundary, kDart };
+
 template <class N>
-RingedCorner<Vec3<N>> random_corner(int faces, bool on_boundary) {
-  data::SplitMix64 random(static_cast<std::uint64_t>(faces) + (on_boundary ? 1000 : 0));
+RingedCorner<Vec3<N>> random_corner(int faces, Kind kind) {
+  data::SplitMix64 random(static_cast<std::uint64_t>(faces) + (kind == Kind::kBoundary ? 1000 : 0));
   const auto point = [&] {
     const auto number = [&] { return N(static_cast<int>(random.next() % 2001) - 1000) / N(64); };
     Vec3<N> p;
@@ -34,22 +37,21 @@ RingedCorner<Vec3<N>> random_corner(int faces, bool on_boundary) {
     return p;
   };
   RingedCorner<Vec3<N>> c;
-  c.on_boundary = on_boundary;
+  c.on_boundary = kind != Kind::kInside;
+  if (kind == Kind::kDart) c.state = VertexState::kDart;
   c.point = point();
-  for (int i = 0; i < faces + (on_boundary ? 1 : 0); ++i) c.edges.push_back(point());
+  for (int i = 0; i < faces + (kind == Kind::kBoundary ? 1 : 0); ++i) c.edges.push_back(point());
+  if (kind == Kind::kDart) c.edges.push_back(Vec3<N>(c.edges.front()));
   for (int i = 0; i < faces; ++i) c.faces.push_back(point());
   return c;
 }
 
 TEST(CatmullClark_LimitMasks, StayExactlyWhereTheyAreInAStep) {
-  for (int n = 3; n <= 60; ++n) {
-    const auto c = random_corner<Rational>(n, false);
-    EXPECT_EQ(limit_position(c), limit_position(subdivide<Rational>(c))) << n;
-  }
-  for (int k = 1; k <= 60; ++k) {
-    const auto c = random_corner<Rational>(k, true);
-    EXPECT_EQ(limit_position(c), limit_position(subdivide<Rational>(c))) << k;
-  }
+  for (const Kind kind : {Kind::kInside, Kind::kBoundary, Kind::kDart})
+    for (int n = kind == Kind::kBoundary ? 1 : 3; n <= (kind == Kind::kDart ? 20 : 60); ++n) {
+      const auto c = random_corner<Rational>(n, kind);
+      EXPECT_EQ(limit_position(c), limit_position(subdivide<Rational>(c))) << n;
+    }
 }
 
 TEST(CatmullClark_TangentMasks, ShrinkByTheirEigenvalueInAStep) {
@@ -61,18 +63,33 @@ TEST(CatmullClark_TangentMasks, ShrinkByTheirEigenvalueInAStep) {
     EXPECT_GT(magnitude(before), N("1e-3")) << what;
   };
   for (int n = 3; n <= 60; ++n) {
-    const auto c = random_corner<N>(n, false);
+    const auto c = random_corner<N>(n, Kind::kInside);
     const auto before = limit_tangents(c), after = limit_tangents(subdivide<N>(c));
     const N lambda = (four_lambda_minus_one<N>(n) + N(1)) / N(4);
     expect_shrunk(after.first, before.first, lambda, "C at valence " + std::to_string(n));
     expect_shrunk(after.second, before.second, lambda, "S at valence " + std::to_string(n));
   }
   for (int k = 1; k <= 60; ++k) {
-    const auto c = random_corner<N>(k, true);
+    const auto c = random_corner<N>(k, Kind::kBoundary);
     const auto before = limit_tangents(c), after = limit_tangents(subdivide<N>(c));
     const N lambda = (four_lambda_minus_one<N>(2 * k) + N(1)) / N(4);
     expect_shrunk(after.first, before.first, N(1) / N(2), "along " + std::to_string(k) + " faces");
     expect_shrunk(after.second, before.second, lambda, "across " + std::to_string(k) + " faces");
+  }
+  for (int n = 3; n <= 30; ++n) {
+    const auto c = random_corner<N>(n, Kind::kDart);
+    const auto before = limit_tangents(c), after = limit_tangents(subdivide<N>(c));
+    const N along = dot(after.first, before.first) / dot(before.first, before.first);
+    const N lambda = (four_lambda_minus_one<N>(n) + N(1)) / N(4);
+    expect_shrunk(after.first, before.first, along, "along a dart of " + std::to_string(n));
+    expect_shrunk(after.second, before.second, lambda, "across a dart of " + std::to_string(n));
+    const double shrinks = along.convert_to<double>();
+    const double known = n == 3   ? .462060590538
+                         : n == 4 ? .5
+                         : n == 5 ? .526424362162
+                         : n == 8 ? .581909960445
+                                  : shrinks;
+    EXPECT_NEAR(shrinks, known, 1e-12) << n;
   }
 }
 
@@ -88,7 +105,7 @@ TEST(CatmullClark_Eigenvalues, AreTheKnownOnes) {
 
 // The masks at valence 4 are those of the bicubic B-spline.
 TEST(CatmullClark_RegularVertex, IsTheBicubicSpline) {
-  const auto c = random_corner<Rational>(4, false);
+  const auto c = random_corner<Rational>(4, Kind::kInside);
   Patch<Rational> p{};  // the vertex at (0, 0) of the patch; what lies beyond the ring has no weight there
   p[5] = c.point;
   p[6] = c.edges[0], p[9] = c.edges[1], p[4] = c.edges[2], p[1] = c.edges[3];
@@ -123,6 +140,14 @@ int corners_of(const Case& c, int face) {
   return n == 4 ? 1 : n;
 }
 
+/// A unit in the last place of the largest coordinate.
+double unit_of(const data::ControlMesh& mesh) {
+  double largest = 0;
+  for (const auto& p : mesh.positions)
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  return largest * 0x1p-52;
+}
+
 // Parameters inside, on edges and at corners, ordinary and very near corner 0, 1 and 2. The nearest is for
 // Stam's evaluator alone: subdivision would take a thousand steps and lose 300 digits.
 std::vector<std::array<Parameter, 2>> parameters(bool nearest) {
@@ -139,96 +164,27 @@ std::vector<std::array<Parameter, 2>> parameters(bool nearest) {
 double size(const Vec3<Decimal50>& a) {
   return magnitude(a).convert_to<double>();
 }
-template <class N>
-Vec3<Decimal50> to_decimal(const Vec3<N>& a) {
-  const auto number = [](const N& x) {
-    if constexpr (std::is_same_v<N, Rational>)
-      return NumberTraits<Decimal50>::from_rational(x);
-    else
-      return Decimal50(x);
-  };
-  return {number(a.x), number(a.y), number(a.z)};
+Vec3<Decimal50> to_decimal(const Vec3<double>& a) {
+  return {Decimal50(a.x), Decimal50(a.y), Decimal50(a.z)};
 }
 
-// To what subdivision loses in a hundred digits, relative to the size of what is compared, or to 1: at 1e-30
-// from a vertex it takes 101 steps, and differences of order d between points 2^-101 apart lose d * 30.4
-// digits. A few roundings make two digits more.
+// At 1e-30 from a vertex subdivision takes 101 steps.
 TEST(CatmullClark_Evaluators, AgreeToWhatSubdivisionLoses) {
-  double worst_position = 0, worst_first = 0, worst_second = 0, worst_normal = 0;
   for (const Case& c : cases()) {
-    const SubdivisionEvaluator<Decimal100> one(c.mesh.faces, positions_of<Decimal100>(c.mesh));
-    const StamEvaluator<Decimal100> other(c.mesh.faces, positions_of<Decimal100>(c.mesh));
+    const Methods<Decimal100> by(c.mesh, data::Scheme::kCatmullClark);
     for (int face = 0; face < c.faces; ++face)
       for (int corner = 0; corner < corners_of(c, face); ++corner)
-        for (const auto& [u, v] : parameters(false)) {
-          const auto a = one.evaluate(face, corner, u, v), b = other.evaluate(face, corner, u, v);
-          const auto error = [](const Vec3<Decimal100>& x, const Vec3<Decimal100>& y,
-                                const Decimal100& scale) {
-            return (magnitude(x - y) / scale).convert_to<double>();
-          };
-          const Decimal100 first = std::max({magnitude(a.d1), magnitude(a.d2), Decimal100(1)});
-          const Decimal100 second =
-              std::max({magnitude(a.d11), magnitude(a.d12), magnitude(a.d22), Decimal100(1)});
-          const std::string id = c.name + " face " + std::to_string(face) + ":" + std::to_string(corner) +
-                                 " (" + u.to_string().substr(0, 12) + ", " + v.to_string().substr(0, 12) +
-                                 ")";
-          const double position = error(a.position, b.position, Decimal100(1));
-          const double d = std::max(error(a.d1, b.d1, first), error(a.d2, b.d2, first));
-          const double dd = std::max(
-              {error(a.d11, b.d11, second), error(a.d12, b.d12, second), error(a.d22, b.d22, second)});
-          EXPECT_LE(position, 1e-98) << id;
-          EXPECT_LE(d, 1e-100 * 0x1p101 * 100) << id;
-          EXPECT_LE(dd, 1e-100 * 0x1p202 * 100) << id;
-          EXPECT_EQ(a.normal_kind, b.normal_kind) << id;
-          EXPECT_EQ(a.at_corner, b.at_corner) << id;
-          EXPECT_EQ(a.first_exist, b.first_exist) << id;
-          EXPECT_EQ(a.second_exist, b.second_exist) << id;
-          if (a.normal_kind == NormalKind::kRegular && b.normal_kind == NormalKind::kRegular)
-            worst_normal = std::max(worst_normal, error(a.normal, b.normal, Decimal100(1)));
-          worst_position = std::max(worst_position, position);
-          worst_first = std::max(worst_first, d);
-          worst_second = std::max(worst_second, dd);
-        }
-  }
-  // Next to a boundary corner of one face the tangents close like the distance, 1e-30, and the normal loses
-  // as much.
-  EXPECT_LE(worst_normal, 1e-100 * 0x1p101 * 100 / 1e-30);
-  std::printf("worst: position %.1e, first %.1e, second %.1e, normal %.1e\n", worst_position, worst_first,
-              worst_second, worst_normal);
-}
-
-// Catmull-Clark's weights are rational at every valence: all but normals is exact, and one method in
-// rationals tells of the other in balls or decimals whether it is right.
-TEST(CatmullClark_Evaluators, InRationalsAreExactAtEveryValence) {
-  for (const Case& c : cases()) {
-    const SubdivisionEvaluator<Rational> exact(c.mesh.faces, positions_of<Rational>(c.mesh));
-    const StamEvaluator<Decimal100> other(c.mesh.faces, positions_of<Decimal100>(c.mesh));
-    for (int face = 0; face < std::min(c.faces, 2); ++face)
-      for (const auto& [u, v] : {std::array{Parameter::fraction(1, 3), Parameter::fraction(1, 4)},
-                                 {Parameter::fraction(1, 1000), Parameter::fraction(1, 3000)},
-                                 {Parameter(0.), Parameter(0.)}}) {
-        const auto a = exact.evaluate(face, 0, u, v);
-        const auto b = other.evaluate(face, 0, u, v);
-        const auto close = [&](const Vec3<Rational>& x, const Vec3<Decimal100>& y) {
-          const auto number = [](const Rational& r) { return NumberTraits<Decimal100>::from_rational(r); };
-          const Vec3<Decimal100> wide{number(x.x), number(x.y), number(x.z)};
-          EXPECT_LE(magnitude(wide - y), Decimal100("1e-90") * (Decimal100(1) + magnitude(wide))) << c.name;
-        };
-        close(a.position, b.position);
-        if (!a.first_exist) continue;
-        close(a.d1, b.d1), close(a.d2, b.d2);
-        close(a.d11, b.d11), close(a.d12, b.d12), close(a.d22, b.d22);
-      }
+        for (const auto& [u, v] : parameters(false))
+          expect_same(by.by_steps(face, corner, u, v), by.stam(face, corner, u, v), 101,
+                      c.name + " face " + std::to_string(face) + ":" + std::to_string(corner) + " (" +
+                          u.to_string().substr(0, 12) + ", " + v.to_string().substr(0, 12) + ")");
   }
 }
 
 // In double, against a hundred digits of the same mesh, in units of the last place of its largest coordinate.
 TEST(CatmullClark_Evaluators, InDoubleWithinAFewUnits) {
   for (const Case& c : cases()) {
-    double largest = 0;
-    for (const auto& p : c.mesh.positions)
-      largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    const double ulp = largest * 0x1p-52;
+    const double ulp = unit_of(c.mesh);
     const StamEvaluator<Decimal50> exact(c.mesh.faces, positions_of<Decimal50>(c.mesh));
     const StamEvaluator<double> stam(c.mesh.faces, positions_of<double>(c.mesh));
     const SubdivisionEvaluator<double> steps(c.mesh.faces, positions_of<double>(c.mesh));
@@ -270,47 +226,22 @@ TEST(CatmullClark_Evaluators, InDoubleWithinAFewUnits) {
 // condition.
 TEST(CatmullClark_Tessellations, AreTheEvaluatorsPoints) {
   double worst = 0, worst_normal = 0;
-  std::size_t looked_at = 0;
   for (const Case& c : cases()) {
-    double largest = 0;
-    for (const auto& p : c.mesh.positions)
-      largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    const auto positions = positions_of<double>(c.mesh);
-    const NaiveSubdivider<double> naive(c.mesh.faces, positions);
-    const StamEvaluator<double> stam(c.mesh.faces, positions);
-    RefinedMesh<double> refined(c.mesh.faces, positions);
-    for (int depth = 0; depth <= 3; ++depth) {
-      if (depth > 0) refined.refine();
-      const auto limits = refined.limits();
-      for (int face = 0; face < c.faces; ++face)
-        for (int corner = 0; corner < corners_of(c, face); ++corner) {
-          const bool is_quad = corners_of(c, face) == 1;
-          if (!is_quad && depth == 0) continue;
-          const int side = 1 << (is_quad ? depth : depth - 1);
-          std::size_t leaves = 0;
-          const auto f = static_cast<std::size_t>(face), k = static_cast<std::size_t>(corner);
-          naive.tessellate(f, k, depth, [&](const LeafQuad<double>& leaf) {
-            ++leaves;
-            for (const auto& p : leaf) {
-              ++looked_at;
-              const auto want = stam.evaluate(face, corner, static_cast<double>(p.i) / side,
-                                              static_cast<double>(p.j) / side, Derivatives::kFirst);
-              const auto v = static_cast<std::size_t>(refined.vertex(f, k, p.i, p.j));
-              const double unit = largest * 0x1p-52;
-              worst = std::max({worst, magnitude(p.position - want.position) / unit,
-                                magnitude(limits.positions[v] - want.position) / unit});
-              ASSERT_EQ(p.normal_kind, limits.kinds[v]) << c.name;
-              if (p.normal_kind != NormalKind::kRegular || want.normal_kind != NormalKind::kRegular) continue;
-              const double bound = 0x1p-52 * std::max(8., want.normal_condition);
-              worst_normal = std::max({worst_normal, magnitude(p.normal - want.normal) / bound,
-                                       magnitude(limits.normals[v] - want.normal) / bound});
-            }
+    const double unit = unit_of(c.mesh);
+    for (int depth = 0; depth <= 3; ++depth)
+      each_lattice_point<double>(
+          c.mesh, data::Scheme::kCatmullClark, depth,
+          [&](const auto& naive, const auto& limits, std::size_t v, const auto& want) {
+            worst = std::max({worst, magnitude(naive.position - want.position) / unit,
+                              magnitude(limits.positions[v] - want.position) / unit});
+            EXPECT_EQ(naive.normal_kind, limits.kinds[v]) << c.name;
+            if (naive.normal_kind != NormalKind::kRegular || want.normal_kind != NormalKind::kRegular) return;
+            const double bound = 0x1p-52 * std::max(8., want.normal_condition);
+            worst_normal = std::max({worst_normal, magnitude(naive.normal - want.normal) / bound,
+                                     magnitude(limits.normals[v] - want.normal) / bound});
           });
-          EXPECT_EQ(leaves, static_cast<std::size_t>(side * side)) << c.name;
-        }
-    }
   }
-  std::printf("%zu corners: position %.2f, normal over its condition %.2f\n", looked_at, worst, worst_normal);
+  std::printf("position %.2f, normal over its condition %.2f\n", worst, worst_normal);
   EXPECT_LE(worst, 4);
   EXPECT_LE(worst_normal, kRoundingsOfATangent);
 }

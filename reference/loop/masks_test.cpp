@@ -57,26 +57,6 @@ TEST(WarrensWeights, HaveTheKnownValues) {
   EXPECT_EQ(ring_weight<Rational>(4, Weights::kLoop), Rational(31, 64));
 }
 
-TEST(WarrensWeights, KeepTheLimitOfARingAtEveryValence) {
-  for (const int n : {3, 4, 5, 6, 7, 8, 12, 50, 200}) {
-    auto ring = scattered_ring<N>(n);
-    Vec3<N> v = scattered<N>(0);
-    const auto before = interior_limit<N>(v, ring, Weights::kWarren);
-    const Vec3<N> moved = interior_vertex_point<N>(v, ring, Weights::kWarren);
-    subdivide_ring(v, ring, false);  // the ring's own points are those of either family
-    EXPECT_LT(distance(before, interior_limit<N>(moved, ring, Weights::kWarren)), 1e-47) << n;
-  }
-}
-
-// The vertex (1, 0, 0) of an octahedron has a ring about the origin: 1/2 stays of it. Loop's mask leaves
-// 24/55.
-TEST(WarrensWeights, HalveAnOctahedron) {
-  const std::vector<Vec3<Rational>> ring{{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}};
-  const Vec3<Rational> v{1, 0, 0};
-  EXPECT_EQ(interior_limit<Rational>(v, ring, Weights::kWarren).x, Rational(1, 2));
-  EXPECT_EQ(interior_limit<Rational>(v, ring).x, Rational(24, 55));
-}
-
 TEST(Sec31_Masks, ReproduceTheRegularLatticeExactly) {
   // On a regular lattice Loop's scheme halves linear functions and keeps the cubic boundary rule's line.
   std::vector<Vec3<Rational>> ring{{1, 0, 3}, {0, 1, -2}, {-1, 1, -5}, {-1, 0, -3}, {0, -1, 2}, {1, -1, 5}};
@@ -107,16 +87,6 @@ TEST(Eq4And5_TangentMasks, ScaleByTheSubdominantEigenvalue) {
     const N lambda = N(3) / 8 + NumberTraits<N>::cos_pi(2, n) / 4;
     EXPECT_LT(distance(before.first * lambda, after.first), 1e-45) << n;
     EXPECT_LT(distance(before.second * lambda, after.second), 1e-45) << n;
-  }
-}
-
-TEST(D1_BoundaryLimit, IsUnchangedByASubdivisionStepExactly) {
-  for (int k = 1; k <= 12; ++k) {
-    auto ring = scattered_ring<Rational>(k + 1);
-    Vec3<Rational> v = scattered<Rational>(0);
-    const auto before = boundary_limit(v, ring.front(), ring.back());
-    subdivide_ring(v, ring, true);
-    EXPECT_EQ(before, boundary_limit(v, ring.front(), ring.back())) << k;
   }
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The closed-form eigenstructure against Eigen's dense eigenvalue solver, and rings after many steps against
-// repeated multiplication.
+// Rings after many steps, by their eigenvalues, against as many steps.
 #include <gtest/gtest.h>
-
-#include <Eigen/Dense>
 
 #include "reference/loop/stepped_ring.h"
 #include "reference/loop/two_ring.h"
@@ -46,70 +43,7 @@ struct Matrix {
     for (int i = 0; i < count; ++i) set(q(i), M((3 * (at(r(i)) + at(r(i + 1))) + at(0) + at(q(i))) / 8));
     return y;
   }
-
-  Eigen::MatrixXd dense() const {
-    Eigen::MatrixXd s(size(), size());
-    for (int j = 0; j < size(); ++j) {
-      std::vector<double> unit(static_cast<std::size_t>(size()));
-      unit[j] = 1;
-      const auto column = step(unit);
-      for (int i = 0; i < size(); ++i) s(i, j) = column[i];
-    }
-    return s;
-  }
 };
-
-std::vector<double> closed_form(const Matrix& m) {
-  std::vector<double> values{1};
-  const int modes = m.boundary ? m.count : m.count - 1;
-  if (m.boundary)
-    values.insert(values.end(), {0.5, 0.25, 0.125, 0.125});
-  else
-    values.push_back(5.0 / 8 - loop_a<double>(m.count));
-  for (int f = 1; m.boundary ? f < modes : f <= modes; ++f)
-    values.push_back(3.0 / 8 + NumberTraits<double>::cos_pi(m.boundary ? f : 2 * f, m.count) / 4);
-  values.insert(values.end(), static_cast<std::size_t>(m.count), 1.0 / 8);
-  values.insert(values.end(), static_cast<std::size_t>(m.boundary ? m.count - 1 : m.count), 1.0 / 16);
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
-TEST(TwoRing_Eigenvalues, AreThoseOfTheDenseMatrix) {
-  double worst = 0;
-  for (const bool boundary : {false, true})
-    for (int count = boundary ? 1 : 3; count <= 13; ++count) {
-      const Matrix m{count, boundary};
-      const Eigen::EigenSolver<Eigen::MatrixXd> solver(m.dense());
-      std::vector<double> got;
-      for (const auto& value : solver.eigenvalues()) got.push_back(value.real());
-      std::sort(got.begin(), got.end());
-      const auto expected = closed_form(m);
-      ASSERT_EQ(got.size(), expected.size());
-      for (std::size_t i = 0; i < got.size(); ++i) {
-        worst = std::max(worst, std::abs(got[i] - expected[i]));
-        EXPECT_NEAR(got[i], expected[i], 1e-6)
-            << count << (boundary ? " boundary" : " interior");  // sqrt(eps) at Jordan blocks
-      }
-    }
-  RecordProperty("worst", std::to_string(worst));
-}
-
-/// Dimension of the eigenspace.
-int geometric(const Matrix& m, double eigenvalue) {
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(m.dense() -
-                                       eigenvalue * Eigen::MatrixXd::Identity(m.size(), m.size()));
-  lu.setThreshold(1e-10);
-  return m.size() - static_cast<int>(lu.rank());
-}
-
-TEST(TwoRing_JordanBlocks, AreAtValenceThreeAndAtMultiplesOfSixBoundaryFaces) {
-  // D8: the full two-ring of valence 3 has 1/16 four times, with three eigenvectors.
-  EXPECT_EQ(geometric({3, false}, 1.0 / 16), 3);
-  for (int n = 4; n <= 12; ++n) EXPECT_EQ(geometric({n, false}, 1.0 / 16), n) << n;
-  // Boundary: 1/2 is double where K is a multiple of 3, defective where it is one of 6.
-  for (int k = 1; k <= 24; ++k)
-    EXPECT_EQ(geometric({k, true}, 0.5), k % 6 == 0 ? 1 : k % 3 == 0 ? 2 : 1) << k;
-}
 
 /// The largest error of a ring after many steps, relative to its slowest mode.
 template <class Ring>
@@ -165,17 +99,6 @@ TEST(TwoRing_Powers, EqualRepeatedSubdivisionOfTheWholeTwoRing) {
       }
     }
   RecordProperty("worst", std::to_string(worst));
-}
-
-TEST(TwoRing_BlockPower, HandlesEqualArgumentsAsAJordanBlockDoes) {
-  const N x = N(1) / 16, y = N(1) / 8;
-  const BlockPower<N> b(x, y, x, 9);
-  EXPECT_EQ(b.xz, 9 * power(x, 8));
-  EXPECT_LT(abs(b.xy - (power(x, 9) - power(y, 9)) / (x - y)), N("1e-50"));
-  const BlockPower<N> zero(x, y, x, 0), one(x, y, x, 1);
-  EXPECT_EQ(zero.xy, N(0));
-  EXPECT_EQ(one.xy, N(1));
-  EXPECT_EQ(one.xyz, N(0));
 }
 
 }  // namespace

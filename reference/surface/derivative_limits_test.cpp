@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <initializer_list>
 #include <numbers>
 #include <string>
@@ -16,13 +15,8 @@
 
 #include "data/generators/polygon_meshes.h"
 #include "data/shapes.h"
-#include "reference/catmull_clark/recursion.h"
-#include "reference/catmull_clark/stam.h"
-#include "reference/loop/recursion.h"
-#include "reference/loop/refine.h"
-#include "reference/loop/stam.h"
 #include "reference/number/number_exact.h"
-#include "reference/surface/certified.h"
+#include "reference/surface/test_methods.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -256,40 +250,9 @@ std::vector<Case> cases() {
 
 /// The parameters of the point (x, y) steps of 2^-halvings / 16 from a corner, x towards the next.
 std::array<Parameter, 2> near(const Case& c, int k, int x, int y, int halvings) {
-  const Rational unit = Rational(1, Integer(16) << halvings), a = x * unit, b = y * unit;
-  using Pair = std::array<Rational, 2>;
-  const Pair p = c.scheme == Scheme::kLoop ? k == 0   ? Pair{a, b}
-                                             : k == 1 ? Pair{1 - a - b, a}
-                                                      : Pair{b, 1 - a - b}
-                 : k == 0 ? Pair{a, b}
-                 : k == 1                  ? Pair{1 - b, a}
-                 : k == 2                  ? Pair{1 - a, 1 - b}
-                                           : Pair{b, 1 - a};
-  return {Parameter::parse(p[0].str()), Parameter::parse(p[1].str())};
+  const Rational unit = Rational(1, Integer(16) << halvings);
+  return seen_from(static_cast<std::size_t>(k), c.scheme == Scheme::kLoop ? 3 : 4, x * unit, y * unit);
 }
-
-/// Stam's evaluator of either scheme, and at the corner that by subdivision.
-struct Evaluators {
-  using At = std::function<SurfacePoint<Big>(const Place&, const std::array<Parameter, 2>&)>;
-  At stam, by_steps;
-
-  explicit Evaluators(const Case& c) {
-    const auto loop = [](const auto& e) -> At {
-      return [e](const Place& at, const auto& p) { return e.evaluate(at.face, p[0], p[1]); };
-    };
-    const auto quads = [](const auto& e) -> At {
-      return [e](const Place& at, const auto& p) { return e.evaluate(at.face, at.corner, p[0], p[1]); };
-    };
-    const auto points = positions_of<Big>(c.mesh);
-    if (c.scheme == Scheme::kLoop) {
-      stam = loop(StamEvaluator<Big>(c.mesh, c.weights));
-      by_steps = loop(SubdivisionEvaluator<Big>(c.mesh, c.weights));
-    } else {
-      stam = quads(catmull_clark::StamEvaluator<Big>(c.mesh.faces, points, c.mesh.sharpness));
-      by_steps = quads(catmull_clark::SubdivisionEvaluator<Big>(c.mesh.faces, points, c.mesh.sharpness));
-    }
-  }
-};
 
 std::vector<Vec3<Big>> derivatives(const SurfacePoint<Big>& p, int order) {
   return order == 1 ? std::vector{p.d1, p.d2} : std::vector{p.d11, p.d12, p.d22};
@@ -311,12 +274,13 @@ double slope(const Big& far, const Big& close) {
   return static_cast<Big>(log2(Big(close / far))).convert_to<double>() / (kClose - kFar);
 }
 
-void expect_what_is_near(const Case& c, const Evaluators& evaluate, const Place& place, int order,
+void expect_what_is_near(const Case& c, const Methods<Big>& evaluate, const Place& place, int order,
                          const DerivativeLimit& want) {
   const std::string what =
       c.name + ", face " + std::to_string(place.face) + ", order " + std::to_string(order);
   const auto corner = near(c, place.k, 0, 0, 0);
-  const SurfacePoint<Big> at = evaluate.stam(place, corner), same = evaluate.by_steps(place, corner);
+  const SurfacePoint<Big> at = evaluate.stam(place.face, place.corner, corner[0], corner[1]),
+                          same = evaluate.by_steps(place.face, place.corner, corner[0], corner[1]);
   const std::vector<Vec3<Big>> here = derivatives(at, order);
   EXPECT_EQ(exist(at, order), want.exists()) << what;
   EXPECT_EQ(exist(same, order), want.exists()) << what;
@@ -333,8 +297,11 @@ void expect_what_is_near(const Case& c, const Evaluators& evaluate, const Place&
   Big far = 0, close = 0, spread = 0;
   std::vector<Vec3<Big>> first;
   for (const auto& [x, y] : kDirections) {
-    const auto d_far = derivatives(evaluate.stam(place, near(c, place.k, x, y, kFar)), order),
-               d_close = derivatives(evaluate.stam(place, near(c, place.k, x, y, kClose)), order);
+    const auto seen = [&, &x = x, &y = y](int halvings) {
+      const auto [u, v] = near(c, place.k, x, y, halvings);
+      return derivatives(evaluate.stam(place.face, place.corner, u, v), order);
+    };
+    const auto d_far = seen(kFar), d_close = seen(kClose);
     const auto& origin = want.exists() ? here : zero;
     far = std::max(far, farthest(d_far, origin));
     close = std::max(close, farthest(d_close, origin));
@@ -358,7 +325,7 @@ TEST(DerivativeLimits, AreWhatEigenvaluesSayAndWhatIsSeenNextToTheVertex) {
   EXPECT_GE(all.size(), 110U);
   for (const Case& c : all) {
     const Eigen::MatrixXd a = rules(c.scheme, c.kind, c.faces, c.weights);
-    const Evaluators evaluate(c);
+    const Methods<Big> evaluate(c.mesh, c.scheme, c.weights);
     ASSERT_FALSE(c.places.empty()) << c.name;
     std::vector<Place> places = c.places;  // of many the first two, one in the middle and the last
     if (places.size() > 4) places = {places[0], places[1], places[places.size() / 2], places.back()};
@@ -372,24 +339,20 @@ TEST(DerivativeLimits, AreCertified) {
     if (c.weights != Weights::kLoop) continue;
     const Place& place = c.places.front();
     const auto corner = near(c, place.k, 0, 0, 0);
-    const SurfacePoint<Big> want = Evaluators(c).stam(place, corner);
+    const SurfacePoint<Big> want =
+        Methods<Big>(c.mesh, c.scheme).stam(place.face, place.corner, corner[0], corner[1]);
     const CertifiedPoint got =
         CertifiedEvaluator(c.mesh, c.scheme).evaluate(place.face, place.corner, corner[0], corner[1], 20);
-    const auto expect_inside = [&](const Enclosure3& box, const Vec3<Big>& v, const char* what) {
-      const std::array<const Big*, 3> x{&v.x, &v.y, &v.z};
-      for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_LE(abs(Big(box[i].value) - *x[i]), Big(box[i].radius.to_string(17)) + Big("1e-90"))
-            << c.name << what;
-        EXPECT_LE(box[i].radius.as_double(), 1e-17) << c.name << what;
-      }
+    const auto check = [&](const Enclosure3& box, const Vec3<Big>& v, const char* what) {
+      expect_inside(box, v, Big("1e-90"), c.name + what);
+      for (const Enclosure& x : box) EXPECT_LE(x.radius.as_double(), 1e-17) << c.name << what;
     };
     EXPECT_EQ(got.first_exist, want.first_exist) << c.name;
     EXPECT_EQ(got.d11.has_value(), want.second_exist) << c.name;
-    expect_inside(got.d1, want.d1, " d1");
-    expect_inside(got.d2, want.d2, " d2");
+    check(got.d1, want.d1, " d1");
+    check(got.d2, want.d2, " d2");
     if (got.d11)
-      expect_inside(*got.d11, want.d11, " d11"), expect_inside(*got.d12, want.d12, " d12"),
-          expect_inside(*got.d22, want.d22, " d22");
+      check(*got.d11, want.d11, " d11"), check(*got.d12, want.d12, " d12"), check(*got.d22, want.d22, " d22");
     if (want.at_corner) {
       EXPECT_FALSE(got.gaussian_curvature) << c.name;
     }

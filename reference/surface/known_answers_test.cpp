@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Every known answer, to 39 digits with 50-digit arithmetic, by both evaluators where both apply.
-// Every known answer of Catmull-Clark's scheme, and those of Loop's with sharp edges, to 39 digits with 100-digit
-// arithmetic, by both evaluators and in balls.
+// Every known answer, to 39 digits: masks with 50-digit arithmetic, points of surfaces with 100-digit arithmetic by both
+// evaluators, and in balls.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "data/test_support/known_answers.h"
-#include "reference/catmull_clark/recursion.h"
-#include "reference/catmull_clark/stam.h"
 #include "reference/loop/basis.h"
 #include "reference/loop/masks.h"
-#include "reference/loop/recursion.h"
-#include "reference/loop/refine.h"
-#include "reference/loop/stam.h"
 #include "reference/loop/vertex_limit.h"
 #include "reference/number/number_exact.h"
-#include "reference/surface/certified.h"
+#include "reference/surface/test_methods.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -56,17 +51,6 @@ double digits(const Vec3<M>& got, const Vec3<M>& expected) {
   return error == 0 ? 100 : -std::log10(error);
 }
 
-/// An enclosure has the answer in it, up to the rounding of the answer's own 42 digits.
-void expect_inside(const Enclosure3& got, const data::Numeral3& expected, double largest_radius,
-                   const std::string& what) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Big want = data::parse<Big>(expected[i]), value(got[i].value);
-    const Big rounding = abs(want) * Big("1e-41") + Big("1e-43");
-    EXPECT_LE(abs(want - value), Big(got[i].radius.to_string(17)) + rounding) << what;
-    EXPECT_LE(got[i].radius.as_double(), largest_radius) << what;
-  }
-}
-
 constexpr double kDigits = 39;
 #define EXPECT_DIGITS(got, expected, id)    \
   EXPECT_GE(digits(got, expected), kDigits) \
@@ -99,81 +83,6 @@ TEST(KnownAnswers_BoundaryRings, LimitMaskAndBothTangentsToThirtyNineDigits) {
     EXPECT_DIGITS(unit(limit.tangents.second), unit(vec(a.across)), a.id);
     EXPECT_DIGITS(limit.normal.direction, vec(a.unit_normal), a.id);
   }
-}
-
-template <class Evaluator>
-void check_surfaces() {
-  ASSERT_EQ(answers().surfaces.size(), 15U);
-  double worst = 100;
-  for (const auto& a : answers().surfaces) {
-    const Evaluator evaluator(vecs(a.vertices), a.faces);
-    for (const auto& s : a.samples) {
-      const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]),
-                                        Parameter::parse(s.barycentric[2]), Derivatives::kFirst);
-      const std::string id =
-          a.id + " (" + s.barycentric[0] + ", " + s.barycentric[1] + ", " + s.barycentric[2] + ")";
-      EXPECT_DIGITS(p.position, vec(s.position), id);
-      EXPECT_DIGITS(p.d1, vec(s.d_dl1), id);
-      EXPECT_DIGITS(p.d2, vec(s.d_dl2), id);
-      EXPECT_DIGITS(p.normal, vec(s.unit_normal), id);
-      worst = std::min({worst, digits(p.position, vec(s.position)), digits(p.d1, vec(s.d_dl1)),
-                        digits(p.d2, vec(s.d_dl2)), digits(p.normal, vec(s.unit_normal))});
-    }
-  }
-  testing::Test::RecordProperty("fewest_digits", std::to_string(worst));
-}
-TEST(KnownAnswers_SurfacePoints, ByStamToThirtyNineDigits) {
-  check_surfaces<StamEvaluator<N>>();
-}
-TEST(KnownAnswers_SurfacePoints, BySubdivisionToThirtyNineDigits) {
-  check_surfaces<SubdivisionEvaluator<N>>();
-}
-
-TEST(KnownAnswers_SurfacePoints, AreInsideTheCertifiedEnclosures) {
-  for (const auto& a : answers().surfaces) {
-    const CertifiedEvaluator evaluator(a.vertices, a.faces);
-    for (const auto& s : a.samples) {
-      const auto p = evaluator.evaluate(a.face, Parameter::parse(s.barycentric[1]),
-                                        Parameter::parse(s.barycentric[2]), 45);
-      const auto check = [&](const Enclosure3& got, const data::Numeral3& expected) {
-        expect_inside(got, expected, 1e-43, a.id + " " + s.barycentric[1] + " " + s.barycentric[2]);
-      };
-      check(p.position, s.position);
-      check(p.d1, s.d_dl1);
-      check(p.d2, s.d_dl2);
-      check(p.normal, s.unit_normal);
-    }
-  }
-}
-
-TEST(KnownAnswers_SurfacePoints, InDoubleWithinAFewUlpOfTheControlPoints) {
-  // One ulp of the largest control coordinate, 2: 2^-52 * 2.
-  constexpr double kUlp = 0x1p-51;
-  double position = 0, first = 0, normal = 0;
-  for (const auto& a : answers().surfaces) {
-    // The control points are rounded to double first: the truth is that of the rounded mesh.
-    const data::ControlMesh mesh = data::control_mesh(a.vertices, a.faces);
-    const StamEvaluator<double> fast(mesh);
-    const StamEvaluator<N> exact(mesh);
-    for (const auto& s : a.samples) {
-      const Parameter l1 = Parameter::parse(s.barycentric[1]), l2 = Parameter::parse(s.barycentric[2]);
-      const auto got = fast.evaluate(a.face, l1, l2);
-      const auto want = exact.evaluate(a.face, l1, l2);
-      const auto error = [](const Vec3<double>& x, const Vec3<N>& y) {
-        return size(Vec3<N>{x.x, x.y, x.z} - y) / kUlp;
-      };
-      position = std::max(position, error(got.position, want.position));
-      first = std::max({first, error(got.d1, want.d1), error(got.d2, want.d2)});
-      normal = std::max(normal, error(got.normal, want.normal));
-    }
-  }
-  RecordProperty("position_ulp", std::to_string(position));
-  RecordProperty("first_ulp", std::to_string(first));
-  RecordProperty("normal_ulp", std::to_string(normal));
-  std::printf("worst in ulp of 2: position %.2f, d1 d2 %.2f, normal %.2f\n", position, first, normal);
-  EXPECT_LE(position, StamError::kPosition);
-  EXPECT_LE(first, StamError::kFirst);
-  EXPECT_LE(normal * kUlp, StamError::kNormal);
 }
 
 TEST(KnownAnswers_ClosedMeshes, OneStepIsExactInRationals) {
@@ -237,87 +146,60 @@ SharpTags tags_of(const data::QuadAnswer& answer) {
   return tags;
 }
 
-/// An evaluator of each scheme.
-template <template <class> class Evaluator>
-struct OfLoop {
-  static constexpr data::Scheme kScheme = data::Scheme::kLoop;
-  static constexpr const char* kName = "loop";
-  static constexpr std::size_t kAnswers = 8;
-  Evaluator<Big> evaluator;
-  explicit OfLoop(const data::QuadAnswer& a)
-      : evaluator(vecs<Big>(a.vertices), data::Triangles(a.faces).to_vector(), Weights::kLoop, tags_of(a)) {}
-  SurfacePoint<Big> at(int face, int, const Parameter& u, const Parameter& v) const {
-    return evaluator.evaluate(face, u, v, Derivatives::kSecond);
-  }
-};
-template <template <class> class Evaluator>
-struct OfCatmullClark {
-  static constexpr data::Scheme kScheme = data::Scheme::kCatmullClark;
-  static constexpr const char* kName = "catmull-clark";
-  static constexpr std::size_t kAnswers = 50;
-  Evaluator<Big> evaluator;
-  explicit OfCatmullClark(const data::QuadAnswer& a)
-      : evaluator(a.faces, vecs<Big>(a.vertices), tags_of(a)) {}
-  SurfacePoint<Big> at(int face, int corner, const Parameter& u, const Parameter& v) const {
-    return evaluator.evaluate(face, corner, u, v, Derivatives::kSecond);
-  }
-};
+data::Scheme scheme_of(const data::QuadAnswer& a) {
+  return a.scheme == "loop" ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
+}
 
-template <class Of>
-const std::vector<data::QuadAnswer>& answers() {
-  static const auto loaded = [] {
-    std::vector<data::QuadAnswer> all;
-    for (auto& a : data::load_quad_answers())
-      if (a.scheme == Of::kName) all.push_back(std::move(a));
-    return all;
-  }();
+const std::vector<data::QuadAnswer>& surfaces() {
+  static const auto loaded = data::load_quad_answers();
   return loaded;
 }
 
-template <class Of>
-class KnownAnswers : public ::testing::Test {};
-using Evaluators = ::testing::Types<OfLoop<SubdivisionEvaluator>, OfLoop<StamEvaluator>,
-                                    OfCatmullClark<catmull_clark::SubdivisionEvaluator>,
-                                    OfCatmullClark<catmull_clark::StamEvaluator>>;
-TYPED_TEST_SUITE(KnownAnswers, Evaluators);
-
-TYPED_TEST(KnownAnswers, AreFoundToThirtyNineDigits) {
-  ASSERT_EQ(answers<TypeParam>().size(), TypeParam::kAnswers);
-  double fewest = 100;
-  for (const auto& a : answers<TypeParam>()) {
-    const TypeParam evaluator(a);
-    for (const auto& s : a.samples) {
-      const auto p = evaluator.at(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]));
-      const auto check = [&](const char* what, const Vec3<Big>& got, const data::Numeral3& expected) {
-        const double d = digits(got, vec<Big>(expected));
-        fewest = std::min(fewest, d);
-        EXPECT_GE(d, 39) << a.id << " (" << s.uv[0] << ", " << s.uv[1] << ") " << what << ": " << got.x << " "
-                         << got.y << " " << got.z;
-      };
-      check("position", p.position, s.position);
-      if (s.normal) check("normal", p.normal, *s.normal);
-      EXPECT_EQ(p.at_corner, s.at_vertex) << a.id;
-      EXPECT_TRUE(p.first_exist || !s.du) << a.id;
-      if (s.no_tangent_plane && TypeParam::kScheme == data::Scheme::kCatmullClark) {
-        EXPECT_EQ(p.normal_kind, NormalKind::kNoTangentPlane) << a.id;
+TEST(KnownAnswers_SurfacePoints, AreFoundToThirtyNineDigitsByBothMethods) {
+  const auto is_loop = [](const auto& a) { return scheme_of(a) == data::Scheme::kLoop; };
+  ASSERT_EQ(std::ranges::count_if(surfaces(), is_loop), 23);
+  ASSERT_EQ(surfaces().size(), 73U);
+  for (const auto& a : surfaces()) {
+    const Methods<Big> by(a.faces, vecs<Big>(a.vertices), tags_of(a), scheme_of(a));
+    for (const auto& s : a.samples)
+      for (const auto& at : {by.stam, by.by_steps}) {
+        const auto p = at(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]));
+        const std::string where = a.id + " (" + s.uv[0] + ", " + s.uv[1] + ") ";
+        EXPECT_DIGITS(p.position, vec<Big>(s.position), where);
+        if (s.normal) {
+          EXPECT_DIGITS(p.normal, vec<Big>(*s.normal), where);
+        }
+        EXPECT_EQ(p.at_corner, s.at_vertex) << where;
+        EXPECT_TRUE(p.first_exist || !s.du) << where;
+        if (s.no_tangent_plane && !is_loop(a)) {
+          EXPECT_EQ(p.normal_kind, NormalKind::kNoTangentPlane) << where;
+        }
+        if (s.du) {
+          EXPECT_DIGITS(p.d1, vec<Big>(*s.du), where);
+          EXPECT_DIGITS(p.d2, vec<Big>(*s.dv), where);
+        }
+        if (s.dudu) {
+          EXPECT_DIGITS(p.d11, vec<Big>(*s.dudu), where);
+          EXPECT_DIGITS(p.d12, vec<Big>(*s.dudv), where);
+          EXPECT_DIGITS(p.d22, vec<Big>(*s.dvdv), where);
+        }
       }
-      if (s.du) check("d1", p.d1, *s.du), check("d2", p.d2, *s.dv);
-      if (s.dudu) check("d11", p.d11, *s.dudu), check("d12", p.d12, *s.dudv), check("d22", p.d22, *s.dvdv);
-    }
   }
-  std::printf("fewest digits: %.1f\n", fewest);
 }
 
-template <class Of>
-void expect_inside_enclosures(double largest_radius) {
-  for (const auto& a : answers<Of>()) {
+// But for the rounding of the answers' own 42 digits.
+TEST(KnownAnswers_SurfacePoints, AreInsideTheCertifiedEnclosures) {
+  for (const auto& a : surfaces()) {
     if (a.faces.size() > 100) continue;  // balls at valence 50 take their time
-    const CertifiedEvaluator evaluator(a.vertices, a.faces, Of::kScheme, tags_of(a));
+    const CertifiedEvaluator evaluator(a.vertices, a.faces, scheme_of(a), tags_of(a));
     for (const auto& s : a.samples) {
       const auto p =
           evaluator.evaluate(s.face, s.corner, Parameter::parse(s.uv[0]), Parameter::parse(s.uv[1]), 45);
       const auto check = [&](const Enclosure3& got, const data::Numeral3& expected) {
-        expect_inside(got, expected, largest_radius, a.id + " " + s.uv[0] + " " + s.uv[1]);
+        const Vec3<Big> want = vec<Big>(expected);
+        expect_inside(got, want, magnitude(want) * Big("1e-41") + Big("1e-43"), a.id);
+        if (scheme_of(a) == data::Scheme::kCatmullClark) return;
+        for (const Enclosure& x : got) EXPECT_LE(x.radius.as_double(), 1e-40) << a.id;
       };
       check(p.position, s.position);
       if (s.normal) check(p.normal, *s.normal);
@@ -330,12 +212,6 @@ void expect_inside_enclosures(double largest_radius) {
     }
   }
 }
-TEST(KnownAnswersOfLoop, AreInsideTheCertifiedEnclosures) {
-  expect_inside_enclosures<OfLoop<StamEvaluator>>(1e-40);
-}
-TEST(KnownAnswersOfCatmullClark, AreInsideTheCertifiedEnclosures) {
-  expect_inside_enclosures<OfCatmullClark<catmull_clark::StamEvaluator>>(HUGE_VAL);
-}
 
 // Rational points and sharpnesses give rational positions everywhere, and derivatives but at special
 // vertices: the difference from the answer is the answer's rounding to 42 digits.
@@ -347,7 +223,8 @@ TEST(KnownAnswersOfCatmullClark, AreTheRoundedRationals) {
               (magnitude(want) + Rational(1)) / Rational(Integer("1" + std::string(40, '0'))))
         << what;
   };
-  for (const auto& a : answers<OfCatmullClark<catmull_clark::StamEvaluator>>()) {
+  for (const auto& a : surfaces()) {
+    if (scheme_of(a) != data::Scheme::kCatmullClark) continue;
     const catmull_clark::SubdivisionEvaluator<Rational> evaluator(a.faces, vecs<Rational>(a.vertices),
                                                                   tags_of(a));
     for (const auto& s : a.samples) {
@@ -361,6 +238,37 @@ TEST(KnownAnswersOfCatmullClark, AreTheRoundedRationals) {
       expect_rounded(p.d22, *s.dvdv, a.id);
     }
   }
+}
+
+TEST(KnownAnswers_SurfacePoints, InDoubleWithinAFewUlpOfTheControlPoints) {
+  // One ulp of the largest control coordinate, 2: 2^-52 * 2.
+  constexpr double kUlp = 0x1p-51;
+  double position = 0, first = 0, normal = 0;
+  for (const auto& a : surfaces()) {
+    if (a.has_sharp() || scheme_of(a) != data::Scheme::kLoop) continue;
+    // The control points are rounded to double first: the truth is that of the rounded mesh.
+    const data::ControlMesh mesh = data::control_mesh(a.vertices, a.faces);
+    const StamEvaluator<double> fast(mesh);
+    const StamEvaluator<N> exact(mesh);
+    for (const auto& s : a.samples) {
+      const Parameter l1 = Parameter::parse(s.uv[0]), l2 = Parameter::parse(s.uv[1]);
+      const auto got = fast.evaluate(s.face, l1, l2);
+      const auto want = exact.evaluate(s.face, l1, l2);
+      const auto error = [](const Vec3<double>& x, const Vec3<N>& y) {
+        return size(Vec3<N>{x.x, x.y, x.z} - y) / kUlp;
+      };
+      position = std::max(position, error(got.position, want.position));
+      first = std::max({first, error(got.d1, want.d1), error(got.d2, want.d2)});
+      normal = std::max(normal, error(got.normal, want.normal));
+    }
+  }
+  RecordProperty("position_ulp", std::to_string(position));
+  RecordProperty("first_ulp", std::to_string(first));
+  RecordProperty("normal_ulp", std::to_string(normal));
+  std::printf("worst in ulp of 2: position %.2f, d1 d2 %.2f, normal %.2f\n", position, first, normal);
+  EXPECT_LE(position, StamError::kPosition);
+  EXPECT_LE(first, StamError::kFirst);
+  EXPECT_LE(normal * kUlp, StamError::kNormal);
 }
 
 }  // namespace

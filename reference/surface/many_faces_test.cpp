@@ -13,16 +13,13 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
 #include "data/shapes.h"
-#include "reference/catmull_clark/recursion.h"
-#include "reference/catmull_clark/stam.h"
 #include "reference/catmull_clark/stam_impl.h"
-#include "reference/loop/recursion.h"
 #include "reference/loop/recursion_impl.h"
 #include "reference/loop/refine_impl.h"
 #include "reference/loop/ringed_face.h"
-#include "reference/loop/stam.h"
 #include "reference/loop/stam_impl.h"
 #include "reference/number/number_exact.h"
+#include "reference/surface/test_methods.h"
 
 namespace limitcheck::reference {
 
@@ -90,21 +87,15 @@ struct Shape {
   ControlMesh mesh;
 };
 
-std::vector<Shape> triangles(int n) {
-  const ControlMesh wheel = data::wheel(n), fan = data::fan(n);
+std::vector<Shape> shapes(int n, data::Scheme scheme) {
+  const bool loop = scheme == data::Scheme::kLoop;
+  const ControlMesh wheel = loop ? data::wheel(n) : data::quad_wheel(n, 7),
+                    fan = loop ? data::fan(n) : data::quad_fan(n, 11);
   return {{"wheel", wheel},
           {"fan", fan},
-          {"dart", data::dart(n, true)},
+          {"dart", data::dart(n, loop)},
           {"cone", held(wheel, hub(wheel))},
           {"held fan", held(fan, hub(fan))}};
-}
-std::vector<Shape> quads(int n) {
-  const ControlMesh wheel = data::quad_wheel(n, 7), fan = data::quad_fan(n, 11);
-  return {{"quad wheel", wheel},
-          {"quad fan", fan},
-          {"quad dart", data::dart(n, false)},
-          {"quad cone", held(wheel, hub(wheel))},
-          {"held quad fan", held(fan, hub(fan))}};
 }
 
 /// Operations for the evaluator itself and five points of each face.
@@ -133,77 +124,31 @@ void expect_linear(const std::vector<Shape>& few, const std::vector<Shape>& many
 /// Where closed forms end (loop/stepped_ring.h, catmull_clark/two_ring.h).
 constexpr int kManyFaces = 65;
 
-/// Parameters of a face seen from its corner k, from the corner itself to the middle.
-struct Place {
-  const char *along, *across;
-};
-constexpr Place kPlaces[] = {{"0", "0"}, {"1/3", "1/4"}, {"1/5", "0"}, {"1/300", "1/200"}, {"0", "1/5000"}};
-
-/// (l1, l2) or (u, v) of a place at corner k.
-std::array<Parameter, 2> at(const Place& place, std::size_t k, std::size_t corners) {
-  const Rational x(place.along), y(place.across);
-  std::array<Rational, 2> p{x, y};
-  if (corners == 3)
-    p = k == 0   ? std::array{x, y}
-        : k == 1 ? std::array{Rational(1 - x - y), x}
-                 : std::array{y, Rational(1 - x - y)};
-  else if (k != 0)
-    p = k == 1   ? std::array{Rational(1 - y), x}
-        : k == 2 ? std::array{Rational(1 - x), Rational(1 - y)}
-                 : std::array{y, Rational(1 - x)};
-  return {Parameter::parse(p[0].str()), Parameter::parse(p[1].str())};
-}
-
-/// All around the hub in steps, and the faces at both ends: what the two evaluators say, in fifty digits. At
-/// 1/5000 subdivision takes 13 steps, and differences of order d between points 2^-13 apart lose 4 d digits.
-template <class Stam, class Subdivision>
-void expect_same(const Stam& stam, const Subdivision& subdivision, const Shape& shape) {
-  using N = Decimal50;
-  const std::int32_t centre = hub(shape.mesh);
-  std::vector<std::size_t> around;
-  for (std::size_t f = 0; f < shape.mesh.faces.size(); ++f)
-    if (std::ranges::count(shape.mesh.faces[f], centre) > 0) around.push_back(f);
-  for (std::size_t i = 0; i < around.size(); i += i < 2 || i + 4 > around.size() ? 1 : 7) {
-    const auto corners = shape.mesh.faces[around[i]];
-    const auto k = static_cast<std::size_t>(std::ranges::find(corners, centre) - corners.begin());
-    for (const Place& place : kPlaces) {
-      const auto [u, v] = at(place, k, corners.size());
-      const SurfacePoint<N> p = stam(static_cast<int>(around[i]), u, v),
-                            q = subdivision(static_cast<int>(around[i]), u, v);
-      const auto compare = [&](const Vec3<N>& a, const Vec3<N>& b, const char* what, const N& bound) {
-        EXPECT_LE(magnitude(a - b), bound * (N(1) + magnitude(b)))
-            << shape.name << " face " << around[i] << " (" << place.along << ", " << place.across << ") "
-            << what;
-      };
-      compare(p.position, q.position, "position", N("1e-47"));
-      EXPECT_EQ(p.normal_kind, q.normal_kind) << shape.name << " " << place.along;
-      EXPECT_EQ(p.first_exist, q.first_exist);
-      EXPECT_EQ(p.second_exist, q.second_exist);
-      if (p.normal_kind == NormalKind::kRegular) compare(p.normal, q.normal, "normal", N("1e-40"));
-      if (p.first_exist) compare(p.d1, q.d1, "d1", N("1e-43")), compare(p.d2, q.d2, "d2", N("1e-43"));
-      if (p.second_exist)
-        compare(p.d11, q.d11, "d11", N("1e-39")), compare(p.d12, q.d12, "d12", N("1e-39")),
-            compare(p.d22, q.d22, "d22", N("1e-39"));
-    }
-  }
-}
-
+/// All around the hub in steps, and the faces at both ends; at 1/5000 subdivision takes 13 steps.
 TEST(ManyFaces, HaveTheSurfaceOfSubdivision) {
-  using N = Decimal50;
-  for (const int n : {kManyFaces - 1, kManyFaces, 90}) {
-    for (const Shape& s : triangles(n)) {
-      const StamEvaluator<N> stam(s.mesh);
-      const SubdivisionEvaluator<N> subdivision(s.mesh);
-      expect_same([&](int f, const auto& a, const auto& b) { return stam.evaluate(f, a, b); },
-                  [&](int f, const auto& a, const auto& b) { return subdivision.evaluate(f, a, b); }, s);
-    }
-    for (const Shape& s : quads(n)) {
-      const cc::StamEvaluator<N> stam(s.mesh.faces, positions_of<N>(s.mesh), s.mesh.sharpness);
-      const cc::SubdivisionEvaluator<N> subdivision(s.mesh.faces, positions_of<N>(s.mesh), s.mesh.sharpness);
-      expect_same([&](int f, const auto& a, const auto& b) { return stam.evaluate(f, 0, a, b); },
-                  [&](int f, const auto& a, const auto& b) { return subdivision.evaluate(f, 0, a, b); }, s);
-    }
-  }
+  const std::array<Rational, 2> places[] = {{0, 0},
+                                            {Rational(1, 3), Rational(1, 4)},
+                                            {Rational(1, 5), 0},
+                                            {Rational(1, 300), Rational(1, 200)},
+                                            {0, Rational(1, 5000)}};
+  for (const int n : {kManyFaces - 1, kManyFaces, 90})
+    for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
+      for (const Shape& s : shapes(n, scheme)) {
+        const Methods<Decimal50> by(s.mesh, scheme);
+        const std::int32_t centre = hub(s.mesh);
+        std::vector<std::size_t> around;
+        for (std::size_t f = 0; f < s.mesh.faces.size(); ++f)
+          if (std::ranges::count(s.mesh.faces[f], centre) > 0) around.push_back(f);
+        for (std::size_t i = 0; i < around.size(); i += i < 2 || i + 4 > around.size() ? 1 : 7)
+          for (const auto& [x, y] : places) {
+            const auto corners = s.mesh.faces[around[i]];
+            const auto k = static_cast<std::size_t>(std::ranges::find(corners, centre) - corners.begin());
+            const auto [u, v] = seen_from(k, corners.size(), x, y);
+            const auto face = static_cast<int>(around[i]);
+            expect_same(by.stam(face, 0, u, v), by.by_steps(face, 0, u, v), 13,
+                        s.name + " face " + std::to_string(face) + " " + x.str() + " " + y.str());
+          }
+      }
 }
 
 /// Around a vertex of many faces the naive subdivider works out a ring once for all of them. Each by itself:
@@ -229,61 +174,22 @@ TEST(ManyFaces, HaveTheBitsThatTheNaiveSubdividerGivesEachByItself) {
       naive.tessellate(f, 3, [&](const LeafTriangle<double>& leaf) {
         for (const auto& c : leaf) together.insert(together.end(), {c.position, c.normal});
       });
-      ASSERT_EQ(alone.size(), together.size());
-      for (std::size_t k = 0; k < alone.size(); ++k)
-        ASSERT_TRUE(alone[k].x == together[k].x && alone[k].y == together[k].y && alone[k].z == together[k].z)
-            << f << ' ' << k;
-    }
-  }
-}
-
-/// In double against a hundred digits, down to 1e-300 from the vertex.
-TEST(ManyFaces, LoseNoDigitsTowardsTheVertex) {
-  using N = Decimal100;
-  const auto expect_near = [](const Vec3<double>& a, const Vec3<N>& b, const std::string& what) {
-    const N size = std::max(magnitude(b), N("1e-300"));
-    const Vec3<N> wide{N(a.x), N(a.y), N(a.z)};
-    const auto error = N(magnitude(wide - b) / size).convert_to<double>();
-    EXPECT_LE(error, StamError::kNearCorner) << what;
-  };
-  const auto compare = [&](const SurfacePoint<double>& p, const SurfacePoint<N>& q, const std::string& what) {
-    expect_near(p.position, q.position, what + " position");
-    expect_near(p.d1, q.d1, what + " d1");
-    expect_near(p.d2, q.d2, what + " d2");
-    if (q.normal_kind == NormalKind::kRegular && p.normal_kind == NormalKind::kRegular &&
-        q.normal_condition < 1e6)
-      expect_near(p.normal, q.normal, what + " normal");
-  };
-  for (const double near : {1e-3, 1e-30, 1e-300}) {
-    for (const Shape& s : triangles(100)) {
-      const StamEvaluator<double> rounded(s.mesh);
-      const StamEvaluator<N> exact(s.mesh);
-      const std::int32_t centre = hub(s.mesh);
-      for (int f = 0; f < 4; ++f)
-        if (s.mesh.faces[static_cast<std::size_t>(f)][0] == centre)
-          compare(rounded.evaluate(f, near, near / 3), exact.evaluate(f, near, near / 3), s.name);
-    }
-    for (const Shape& s : quads(100)) {
-      const cc::StamEvaluator<double> rounded(s.mesh.faces, positions_of<double>(s.mesh), s.mesh.sharpness);
-      const cc::StamEvaluator<N> exact(s.mesh.faces, positions_of<N>(s.mesh), s.mesh.sharpness);
-      const std::int32_t centre = hub(s.mesh);
-      for (int f = 0; f < 4; ++f)
-        if (s.mesh.faces[static_cast<std::size_t>(f)][0] == centre)
-          compare(rounded.evaluate(f, 0, near, near / 3), exact.evaluate(f, 0, near, near / 3), s.name);
+      EXPECT_EQ(alone, together) << f;
     }
   }
 }
 
 TEST(ManyFacesOfLoop, CostNoMoreEachThanFewer) {
-  expect_linear(triangles(250), triangles(1000), [](const ControlMesh& mesh) {
-    return [e = std::make_shared<StamEvaluator<Counted>>(mesh)](int f, double a, double b) {
-      (void)e->evaluate(f, a, b);
-    };
-  });
+  expect_linear(shapes(250, data::Scheme::kLoop), shapes(1000, data::Scheme::kLoop),
+                [](const ControlMesh& mesh) {
+                  return [e = std::make_shared<StamEvaluator<Counted>>(mesh)](int f, double a, double b) {
+                    (void)e->evaluate(f, a, b);
+                  };
+                });
 }
 
 TEST(ManyFacesOfLoop, CostTheNaiveSubdividerNoMoreEachThanFewer) {
-  const auto wheel = [](int n) { return std::vector<Shape>{triangles(n)[0]}; };
+  const auto wheel = [](int n) { return std::vector<Shape>{shapes(n, data::Scheme::kLoop)[0]}; };
   expect_linear(wheel(250), wheel(1000), [](const ControlMesh& mesh) {
     return [e = std::make_shared<NaiveSubdivider<Counted>>(mesh)](int f, double, double) {
       e->tessellate(static_cast<std::size_t>(f), 1, [](const auto&) {});
@@ -292,12 +198,12 @@ TEST(ManyFacesOfLoop, CostTheNaiveSubdividerNoMoreEachThanFewer) {
 }
 
 TEST(ManyFacesOfCatmullClark, CostNoMoreEachThanFewer) {
-  expect_linear(quads(250), quads(1000), [](const ControlMesh& mesh) {
-    return [e = std::make_shared<cc::StamEvaluator<Counted>>(mesh.faces, positions_of<Counted>(mesh),
-                                                             mesh.sharpness)](int f, double a, double b) {
-      (void)e->evaluate(f, 0, a, b);
-    };
-  });
+  expect_linear(shapes(250, data::Scheme::kCatmullClark), shapes(1000, data::Scheme::kCatmullClark),
+                [](const ControlMesh& mesh) {
+                  return [e = std::make_shared<cc::StamEvaluator<Counted>>(
+                              mesh.faces, positions_of<Counted>(mesh), mesh.sharpness)](
+                             int f, double a, double b) { (void)e->evaluate(f, 0, a, b); };
+                });
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -16,12 +15,10 @@
 #include "data/shapes.h"
 #include "data/splitmix64.h"
 #include "reference/catmull_clark/recursion.h"
-#include "reference/catmull_clark/stam.h"
 #include "reference/loop/recursion.h"
-#include "reference/loop/refine.h"
-#include "reference/loop/stam.h"
 #include "reference/number/number_exact.h"
 #include "reference/surface/surface.h"
+#include "reference/surface/test_methods.h"
 
 namespace limitcheck::reference {
 namespace {
@@ -137,160 +134,70 @@ TEST(SharpEdges, KnowNeitherFirstCornersNorHandedness) {
   }
 }
 
-// Both evaluators, with all the digits that they have.
-template <class Left, class Right>
-double worst_difference(const Left& a, const Right& b, const ControlMesh& mesh, const std::string& name) {
-  using N = Decimal50;
-  double worst = 0;
-  data::SplitMix64 random(7);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto& place = places()[random.next() % places().size()];
-      const char *u = place[0], *v = place[1];
-      const bool triangle = mesh.faces[f].size() == 3;
-      const auto corner =
-          static_cast<int>(mesh.faces[f].size() == 4 ? 0 : random.next() % mesh.faces[f].size());
-      const auto p = a(static_cast<int>(f), corner, u, v, triangle);
-      const auto q = b(static_cast<int>(f), corner, u, v, triangle);
-      const auto compare = [&](const Vec3<N>& x, const Vec3<N>& y, const char* what) {
-        const double size = std::max(1.0, magnitude(x).template convert_to<double>());
-        const double error = magnitude(x - y).template convert_to<double>() / size;
-        EXPECT_LE(error, 1e-40) << name << " face " << f << "/" << corner << " (" << u << ", " << v << ") "
-                                << what;
-        worst = std::max(worst, error);
-      };
-      compare(p.position, q.position, "position");
-      EXPECT_EQ(p.normal_kind, q.normal_kind);
-      if (p.normal_kind == NormalKind::kRegular) compare(p.normal, q.normal, "normal");
-      EXPECT_EQ(p.first_exist, q.first_exist);
-      if (p.first_exist) compare(p.d1, q.d1, "d1"), compare(p.d2, q.d2, "d2");
-      if (p.second_exist) compare(p.d11, q.d11, "d11"), compare(p.d12, q.d12, "d12");
+TEST(SharpEdges, OfAnyKindHaveOneSurfaceByBothMethods) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed)
+    for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+      const bool loop = scheme == data::Scheme::kLoop;
+      const ControlMesh mesh = data::with_random_sharpness(
+          loop ? data::random_mesh(seed, {.faces = 60}) : data::mixed_mesh(seed, {.faces = 60}), seed);
+      const Methods<Decimal50> by(mesh, scheme);
+      data::SplitMix64 random(7);
+      for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        for (int i = 0; i < 2; ++i) {
+          const auto& place = places()[random.next() % places().size()];
+          Rational u(place[0]), v(place[1]);
+          if (loop) {  // from the square onto the triangle
+            const Rational l1 = u * (1 - v / 2), l2 = v * (1 - u / 2), sum = l1 + l2;
+            u = sum > 1 ? Rational(l1 / sum) : l1;
+            v = sum > 1 ? Rational(l2 / sum) : l2;
+          }
+          const Parameter a = Parameter::parse(u.str()), b = Parameter::parse(v.str());
+          const std::size_t corners = mesh.faces[f].size();
+          const auto face = static_cast<int>(f);
+          const auto corner = static_cast<int>(loop || corners == 4 ? 0 : random.next() % corners);
+          expect_same(by.by_steps(face, corner, a, b), by.stam(face, corner, a, b), 9,
+                      "seed " + std::to_string(seed) + " face " + std::to_string(f) + " (" + u.str() + ", " +
+                          v.str() + ")");
+        }
     }
-  return worst;
 }
 
-TEST(SharpEdges, TheEvaluatorsOfCatmullClarkAgreeOnAnything) {
-  using N = Decimal50;
-  double worst = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const ControlMesh mesh = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 60}), seed);
-    const cc::SubdivisionEvaluator<N> steps(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
-    const cc::StamEvaluator<N> powers(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
-    const auto by = [](const auto& evaluator) {
-      return [&evaluator](int face, int corner, const char* u, const char* v, bool) {
-        return evaluator.evaluate(face, corner, Parameter::parse(u), Parameter::parse(v));
-      };
-    };
-    worst = std::max(worst, worst_difference(by(steps), by(powers), mesh, "seed " + std::to_string(seed)));
-  }
-  std::printf("largest difference of 50 digits: %.1e\n", worst);
-}
-
-TEST(SharpEdges, TheEvaluatorsOfLoopAgreeOnAnything) {
-  using N = Decimal50;
-  double worst = 0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const ControlMesh mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 60}), seed);
-    const SubdivisionEvaluator<N> steps(mesh);
-    const StamEvaluator<N> powers(mesh);
-    const auto by = [](const auto& evaluator) {
-      return [&evaluator](int face, int, const char* u, const char* v, bool) {
-        // From the square onto the triangle.
-        const Rational x(u), y(v), half(1, 2);
-        const Rational l1 = x * (Rational(1) - y * half), l2 = y * (Rational(1) - x * half);
-        const Rational over = l1 + l2 > 1 ? Rational(Rational(1) / (l1 + l2)) : Rational(1);
-        return evaluator.evaluate(face, Parameter::parse(Rational(l1 * over).str()),
-                                  Parameter::parse(Rational(l2 * over).str()));
-      };
-    };
-    worst = std::max(worst, worst_difference(by(steps), by(powers), mesh, "seed " + std::to_string(seed)));
-  }
-  std::printf("largest difference of 50 digits: %.1e\n", worst);
-}
-
-// The recursion face by face has the surface's points, near semi-sharp tags too.
-TEST(SharpEdges, TheNaiveRecursionHasTheSurfacesPoints) {
+// The recursion face by face and the limits of a refined mesh's vertices, near semi-sharp tags too.
+TEST(SharpEdges, TheNaiveRecursionAndRefinedMeshesHaveTheSurfacesPoints) {
   using N = Decimal50;
   std::size_t looked_at = 0, normals = 0;
-  const auto expect_same = [&](const auto& leaf, const SurfacePoint<N>& want, const std::string& what) {
-    ++looked_at;
-    EXPECT_LE(magnitude(leaf.position - want.position), N("1e-45")) << what;
-    EXPECT_EQ(leaf.normal_kind, want.normal_kind) << what;
-    if (leaf.normal_kind != NormalKind::kRegular || want.normal_kind != NormalKind::kRegular) return;
-    ++normals;
-    EXPECT_LE(magnitude(leaf.normal - want.normal), N("1e-35")) << what;
+  const auto compare = [&](const ControlMesh& mesh, data::Scheme scheme, const std::string& what) {
+    for (const int depth : {0, 1, 3})
+      each_lattice_point<N>(
+          mesh, scheme, depth,
+          [&](const auto& naive, const auto& limits, std::size_t v, const auto& want) {
+            ++looked_at;
+            EXPECT_LE(magnitude(naive.position - want.position), N("1e-45")) << what << " depth " << depth;
+            EXPECT_LE(magnitude(limits.positions[v] - want.position), N("1e-45"))
+                << what << " depth " << depth;
+            EXPECT_EQ(naive.normal_kind, want.normal_kind) << what << " depth " << depth;
+            if (naive.normal_kind != NormalKind::kRegular || want.normal_kind != NormalKind::kRegular) return;
+            ++normals;
+            EXPECT_LE(magnitude(naive.normal - want.normal), N("1e-35")) << what << " depth " << depth;
+          },
+          3);
   };
-  for (std::uint64_t seed = 1; seed <= 4; ++seed)
-    for (const int depth : {0, 1, 3}) {
-      const std::string what = "seed " + std::to_string(seed) + " depth " + std::to_string(depth) + " face ";
-      const ControlMesh mesh = data::with_random_sharpness(data::random_mesh(seed, {.faces = 40}), seed);
-      const NaiveSubdivider<N> naive(mesh);
-      const StamEvaluator<N> surface(mesh);
-      for (std::size_t f = 0; f < mesh.faces.size(); f += 3)
-        naive.tessellate(f, depth, [&](const LeafTriangle<N>& leaf) {
-          for (const auto& c : leaf)
-            expect_same(c,
-                        surface.evaluate(static_cast<int>(f), Parameter::fraction(c.i, 1 << depth),
-                                         Parameter::fraction(c.j, 1 << depth), Derivatives::kFirst),
-                        what + std::to_string(f));
-        });
-      const ControlMesh mixed = data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 40}), seed);
-      const cc::NaiveSubdivider<N> quads(mixed.faces, positions_of<N>(mixed), mixed.sharpness);
-      const cc::StamEvaluator<N> quad_surface(mixed.faces, positions_of<N>(mixed), mixed.sharpness);
-      for (std::size_t f = 0; f < mixed.faces.size(); f += 3) {
-        const bool is_quad = mixed.faces[f].size() == 4;
-        if (!is_quad && depth == 0) continue;
-        const int side = 1 << (is_quad ? depth : depth - 1), corner = is_quad ? 0 : 2;
-        quads.tessellate(f, static_cast<std::size_t>(corner), depth, [&](const cc::LeafQuad<N>& leaf) {
-          for (const auto& c : leaf)
-            expect_same(c,
-                        quad_surface.evaluate(static_cast<int>(f), corner, Parameter::fraction(c.i, side),
-                                              Parameter::fraction(c.j, side), Derivatives::kFirst),
-                        what + std::to_string(f));
-        });
-      }
-    }
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const std::string what = "seed " + std::to_string(seed);
+    compare(data::with_random_sharpness(data::random_mesh(seed, {.faces = 40}), seed), data::Scheme::kLoop,
+            what + " triangles");
+    compare(data::with_random_sharpness(data::mixed_mesh(seed, {.faces = 40}), seed),
+            data::Scheme::kCatmullClark, what);
+  }
+  compare(data::creased_cube(2), data::Scheme::kCatmullClark, "cube");
+  compare(data::crease_ring(3), data::Scheme::kCatmullClark, "ring");
+  for (const bool triangles : {false, true}) {
+    const data::Scheme scheme = triangles ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
+    compare(data::dart(5, triangles), scheme, "dart");
+    compare(data::corner(3, triangles), scheme, "corner");
+  }
   EXPECT_GT(looked_at, 5000U);
   EXPECT_GT(normals, looked_at / 2);
-}
-
-// The limits of a refined mesh's vertices are the points of the surface there.
-TEST(SharpEdges, RefinedVerticesGoToTheSurface) {
-  using N = Decimal50;
-  const auto expect_near = [](const Vec3<N>& a, const Vec3<N>& b, const std::string& what) {
-    EXPECT_LE(magnitude(a - b), N("1e-45") * (N(1) + magnitude(b))) << what;
-  };
-  for (const ControlMesh& mesh :
-       {data::dart(5, false), data::corner(3, false), data::creased_cube(2), data::crease_ring(3),
-        data::with_random_sharpness(data::quad_wheel(6, 3), 4)}) {
-    cc::RefinedMesh<N> refined(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
-    const cc::StamEvaluator<N> surface(mesh.faces, positions_of<N>(mesh), mesh.sharpness);
-    for (int depth = 0; depth < 3; ++depth, refined.refine()) {
-      const auto limits = refined.limits();
-      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const int side = 1 << depth, i = static_cast<int>(f) % (side + 1), j = side - i / 2;
-        const auto p = surface.evaluate(static_cast<int>(f), 0, Parameter::fraction(i, side),
-                                        Parameter::fraction(j, side), Derivatives::kPosition);
-        expect_near(limits.positions[static_cast<std::size_t>(refined.vertex(f, 0, i, j))], p.position,
-                    "quad " + std::to_string(f));
-      }
-    }
-  }
-  for (const ControlMesh& mesh :
-       {data::dart(5, true), data::corner(3, true), data::with_random_sharpness(data::wheel(7, 2), 4)}) {
-    RefinedMesh<N> refined(mesh);
-    const StamEvaluator<N> surface(mesh);
-    for (int depth = 0; depth < 3; ++depth, refined.refine()) {
-      const auto limits = refined.limits();
-      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const int side = 1 << depth, i = static_cast<int>(f) % (side + 1), j = (side - i) / 2;
-        const auto p = surface.evaluate(static_cast<int>(f), Parameter::fraction(i, side),
-                                        Parameter::fraction(j, side), Derivatives::kPosition);
-        expect_near(limits.positions[static_cast<std::size_t>(refined.vertex(f, i, j))], p.position,
-                    "triangle " + std::to_string(f));
-      }
-    }
-  }
 }
 
 // Chaikin's creasing keeps an edge below 1 sharp if both its halves stay so, which the edges at its far end

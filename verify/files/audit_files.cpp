@@ -84,15 +84,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
 
   if (options.fit != Fit::kNone) {
     step("fit", 0, 1);
-    std::vector<Vector> points;
-    for (std::size_t v = 0; v < tessellation.positions.size(); ++v)
-      if (tessellation.used[v] && is_finite(tessellation.positions[v]))
-        points.push_back(tessellation.positions[v]);
-    const Similarity map = fit(surface, points, options.fit);
-    for (Vector& p : tessellation.positions) p = map(p);
-    for (auto& n : tessellation.normals) n.direction = map.turned(n.direction);
-    audit.notes.push_back(fmt::format("fitted: {}; rms distance then {:.3g} diagonals", to_string(map),
-                                      map.residual / surface.diagonal()));
+    audit.notes.push_back("fitted: " + fit(surface, tessellation, options.fit));
   }
 
   FileEvidence e{control_name, control, surface, tessellation, options.tolerance};
@@ -105,7 +97,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
         "the faces are connected as those of the control mesh after some steps: each vertex is held against "
         "its own point "
         "of the surface, not against the nearest");
-  place_points(e, known, told, placed, Search::kQuick);
+  place_points(e, known, told, placed, true);
   append(audit.results, check_file_finite(e));
   append(audit.results, check_file_unused(e));
   const auto by_feet = [&] {
@@ -121,7 +113,7 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
   };
   std::vector<Result> rows = by_feet();
   if (std::count(e.quick.begin(), e.quick.end(), 1) > 0 && std::any_of(rows.begin(), rows.end(), is_bad)) {
-    place_points(e, known, told, placed, Search::kThorough);
+    place_points(e, known, told, placed);
     rows = by_feet();
   }
   append(audit.results, std::move(rows));
@@ -131,8 +123,8 @@ void judge(FilesAudit& audit, const std::string& control_name, const data::Contr
     normals.bad = normals.of = static_cast<std::int64_t>(tessellation.positions.size());
   }
   if (options.measures_hausdorff) {
-    append(audit.results, check_file_hausdorff(e, options.hausdorff.value_or(-1),
-                                               [&] { step("Hausdorff distance", 0, 1); }));
+    step("Hausdorff distance", 0, 1);
+    append(audit.results, check_file_hausdorff(e, options.hausdorff));
     if (!tessellation.triangles.empty()) audit.notes.push_back(row(audit, "file-hausdorff").message);
   } else {
     Result left_out = e.result("file-hausdorff");

@@ -9,7 +9,6 @@
 
 #include "data/control_mesh.h"
 #include "verify/files/checks/file_evidence.h"
-#include "verify/files/checks/fit.h"
 #include "verify/row/result.h"
 #include "verify/row/statistics.h"
 

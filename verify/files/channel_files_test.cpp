@@ -19,7 +19,6 @@ using data::ChannelRule, data::ControlMesh;
 
 // The file of the limit surface with the channel by a rule, its own value at each corner of a triangle.
 FileTessellation textured(const ControlMesh& mesh, data::Scheme scheme, ChannelRule rule, int depth = 1) {
-  FileTessellation t = sharp_file(mesh, scheme, depth);
   const reference::ChannelEvaluator channel(mesh, mesh.channels.at(0), rule, scheme,
                                             reference::ChannelEvaluator::Method::kSteps);
   std::map<std::array<std::size_t, 4>, std::array<double, 2>> known;
@@ -31,31 +30,13 @@ FileTessellation textured(const ControlMesh& mesh, data::Scheme scheme, ChannelR
                                     reference::Parameter::fraction(at[1], steps), 12)[0];
     return found->second = {std::stof(p.position[0].value), std::stof(p.position[1].value)};
   };
-  const auto put = [&](std::size_t f, std::size_t corner, int steps,
-                       const std::array<std::array<int, 2>, 3>& at) {
+  return sharp_file(mesh, scheme, depth, [&](FileTessellation& t, const CornersAt& corners) {
     auto& which = t.corner_texture.emplace_back();
     for (std::size_t c = 0; c < 3; ++c) {
       which[c] = static_cast<std::int32_t>(t.texture.size());
-      t.texture.push_back(value(f, corner, steps, at[c]));
+      t.texture.push_back(value(corners.face, corners.corner, corners.steps, corners.at[c]));
     }
-  };
-  const int n = 1 << depth;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const std::size_t corners = mesh.faces[f].size();
-    const bool loop = scheme == data::Scheme::kLoop;
-    const int steps = loop || corners == 4 ? n : n / 2;
-    for (std::size_t k = 0; k < (loop || corners == 4 ? 1 : corners); ++k)
-      for (int j = 0; j < steps; ++j)
-        for (int i = 0; i + (loop ? j : 0) < steps; ++i)
-          if (loop) {
-            put(f, k, steps, {{{i, j}, {i + 1, j}, {i, j + 1}}});
-            if (i + j + 1 < steps) put(f, k, steps, {{{i + 1, j}, {i + 1, j + 1}, {i, j + 1}}});
-          } else {
-            put(f, k, steps, {{{i, j}, {i + 1, j}, {i + 1, j + 1}}});
-            put(f, k, steps, {{{i, j}, {i + 1, j + 1}, {i, j + 1}}});
-          }
-  }
-  return t;
+  });
 }
 
 struct Case {

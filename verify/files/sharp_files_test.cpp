@@ -17,6 +17,7 @@
 #include "data/test_support/assertions.h"
 #include "verify/files/test_files.h"
 #include "verify/projection/test_meshes.h"
+#include "verify/recognise/recognise.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -122,41 +123,11 @@ TEST(SharpFiles, AreRecognisedByTheSurfaceOfTheirTags) {
 
     if (m.name == "cube 10") continue;  // flat between its edges: refined points are on the surface
     FileTessellation refined = sharp_file(m.mesh, m.scheme, 2);
-    const auto put = [&](const auto& points) {
-      for (std::size_t v = 0; v < points.size(); ++v) refined.positions[v] = vector_of(points[v]);
-    };
-    if (m.scheme == data::Scheme::kLoop) {
-      put(reference::refine<double>(m.mesh, 2).positions());
-    } else {
-      reference::catmull_clark::RefinedMesh<double> mesh(
-          m.mesh.faces, reference::positions_of<double>(m.mesh), m.mesh.sharpness);
-      mesh.refine();
-      mesh.refine();
-      put(mesh.positions());
-    }
+    const bool loop = m.scheme == data::Scheme::kLoop;
+    refined.positions =
+        scheme_points(m.mesh, loop ? GuessedRule::kLoop : GuessedRule::kCatmullClark, 2, false);
     const FilesAudit unmoved = audit_sharp(m, refined);
     EXPECT_TRUE(says(row(unmoved, "file-distance").message, "what is missing is the last step")) << name;
-  }
-}
-
-// The limit of a dart's vertex is not where the mask of a smooth one puts it.
-TEST(SharpFiles, ADartAtTheLimitOfASmoothVertexIsFound) {
-  for (const int n : {3, 4, 5, 7}) {
-    const TestMesh m = named("dart " + std::to_string(n));
-    FileTessellation t = sharp_file(m.mesh, m.scheme, 2);
-    reference::catmull_clark::RefinedMesh<double> refined(
-        m.mesh.faces, reference::positions_of<double>(m.mesh), m.mesh.sharpness);
-    refined.refine();
-    refined.refine();
-    const auto smooth =
-        reference::catmull_clark::RefinedMesh<double>(refined.topology().faces(), refined.positions())
-            .limits()
-            .positions;
-    const data::SharpEdge& edge = m.mesh.sharpness.edges.at(0);
-    for (const std::int32_t v : {edge.a, edge.b}) t.positions[v] = vector_of(smooth[v]);
-    const FilesAudit a = audit_sharp(m, t);
-    EXPECT_EQ(row(a, "file-distance").status, Status::kFinding) << m.name;
-    EXPECT_LE(row(a, "file-distance").bad, 2) << m.name;
   }
 }
 

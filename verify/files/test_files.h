@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -175,13 +176,21 @@ inline FileTessellation quad_file(const data::ControlMesh& mesh, int depth, bool
   return read_obj(obj_of_quads(mesh, depth, limit));
 }
 
+/// A triangle of the lattice at a corner of a face, which has so many steps along a side.
+struct CornersAt {
+  std::size_t face, corner;
+  int steps;
+  std::array<std::array<int, 2>, 3> at;
+};
+
 /// The limit surface at a depth >= 1, holes left out, exact but for rounding; each corner of a triangle has the normal
-/// of its side.
-inline FileTessellation sharp_file(const data::ControlMesh& mesh, data::Scheme scheme, int depth) {
+/// of its side. `add` to the file of each triangle.
+inline FileTessellation sharp_file(
+    const data::ControlMesh& mesh, data::Scheme scheme, int depth,
+    const std::function<void(FileTessellation&, const CornersAt&)>& add = [](auto&, auto&) {}) {
   const reference::Surface surface(mesh, scheme);
   const bool loop = scheme == data::Scheme::kLoop;
   FileTessellation t{.name = "sharp.obj"};
-  // A triangle of the lattice at a corner of a face, which has so many steps along a side.
   const auto put = [&](auto&& vertex, std::size_t f, std::size_t corner, int steps,
                        std::array<std::array<int, 2>, 3> at) {
     auto& triangle = t.triangles.emplace_back();
@@ -196,6 +205,7 @@ inline FileTessellation sharp_file(const data::ControlMesh& mesh, data::Scheme s
       t.used[triangle[c]] = true;
     }
     t.polygon.push_back(t.polygons++);
+    add(t, {f, corner, steps, at});
   };
   const auto fill = [&](auto refined, auto&& vertex) {
     for (int step = 0; step < depth; ++step) refined.refine();

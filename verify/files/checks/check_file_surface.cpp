@@ -20,22 +20,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Errors of vertices (negative: not looked at) as a row; `expected(vertex)` is for the witness.
-template <class Expected>
-Result row(const FileEvidence& e, const char* check, const std::vector<double>& error, Expected&& expected) {
-  Result r = e.result(check, "diagonal", e.tolerance);
-  const Statistics s = summarise(error, e.tolerance);
-  take(r, s);
-  r.decades = decades(error);
-  if (s.worst_at >= 0) {
-    const auto vertex = static_cast<std::int32_t>(s.worst_at);
-    r.witness = e.at_vertex(vertex);
-    r.witness->show(expected(vertex), e.tessellation.positions[vertex]);
-    if (s.worst) r.worst_absolute = *s.worst * e.surface.diagonal();
-  }
-  return r;
-}
-
 // Steps in the parameters that move a point by `radius` in the direction in which it moves fastest, and in the
 // one in which it moves slowest: the axes of an ellipse, which is long where tangents are nearly parallel.
 struct Axes {
@@ -223,40 +207,33 @@ std::vector<Result> check_file_unused(const FileEvidence& e) {
 
 std::vector<Result> check_file_distance(const FileEvidence& e) {
   const FileTessellation& t = e.tessellation;
-  if (!e.claimed.empty()) return check_file_positions(e);
-  std::vector<double> error(t.positions.size(), -1);
-  for (std::size_t v = 0; v < error.size(); ++v)
-    if (t.used[v]) {
-      const std::int32_t point = e.merged.point_of[v];
-      error[v] = point < 0 ? kInfinite : e.foot[point].distance / e.surface.diagonal();
-    }
-  return {row(e, "file-distance", error,
-              [&](std::int32_t v) { return e.point_of(v) < 0 ? Vector{} : e.foot[e.point_of(v)].position; })};
-}
-
-std::vector<Result> check_file_positions(const FileEvidence& e) {
-  const FileTessellation& t = e.tessellation;
+  const bool told = !e.claimed.empty();
   std::vector<double> error(t.positions.size(), -1);
   std::vector<Vector> expected(t.positions.size());
-  std::int64_t without = 0;
-  for (std::size_t v = 0; v < error.size(); ++v) without += t.used[v] && e.claimed[v].face < 0;
   tbb::parallel_for(std::size_t{0}, error.size(), [&](std::size_t v) {
-    if (e.claimed[v].face < 0) return;
-    if (!is_finite(t.positions[v])) {
-      error[v] = kInfinite;
-      return;
-    }
-    const Foot foot = e.surface.at(e.claimed[v], t.positions[v]);
+    const std::int32_t point = e.merged.point_of[v];
+    if (told ? e.claimed[v].face < 0 : !t.used[v]) return;
+    error[v] = kInfinite;
+    if (point < 0) return;  // not finite
+    const Foot foot = told ? e.surface.at(e.claimed[v], t.positions[v]) : e.foot[point];
     expected[v] = foot.position;
     error[v] = foot.distance / e.surface.diagonal();
   });
-  Result r = row(e, "file-positions", error, [&](std::int32_t v) { return expected[v]; });
-  if (without > 0) {
-    r.status = Status::kFinding;
-    r.bad += without;
-    r.of += without;
-    r.message = fmt::format("{} vertices have no row in the provenance; they were projected", without);
+  Result r = e.result(told ? "file-positions" : "file-distance", "diagonal", e.tolerance);
+  const Statistics s = summarise(error, e.tolerance);
+  take(r, s);
+  r.decades = decades(error);
+  if (s.worst_at >= 0) {
+    r.witness = e.at_vertex(static_cast<std::int32_t>(s.worst_at));
+    r.witness->show(expected[s.worst_at], t.positions[s.worst_at]);
+    if (s.worst) r.worst_absolute = *s.worst * e.surface.diagonal();
   }
+  std::int64_t without = 0;
+  for (std::size_t v = 0; v < error.size(); ++v) without += told && t.used[v] && e.claimed[v].face < 0;
+  if (without == 0) return {r};
+  r.status = Status::kFinding;
+  r.bad += without, r.of += without;
+  r.message = fmt::format("{} vertices have no row in the provenance; they were projected", without);
   return {r};
 }
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "data/cut_out.h"
+#include "data/summary.h"
 #include "verify/files/checks/file_evidence.h"
 
 namespace limitcheck::verify {
@@ -90,17 +90,6 @@ std::int64_t touching(const data::ControlMesh& mesh) {
   return static_cast<std::int64_t>(data::split_fans(shown, mesh.positions.size()).size());
 }
 
-// Two boundary edges of the control mesh in one place.
-bool has_seams(const data::ControlMesh& mesh, const std::vector<std::vector<std::int32_t>>& loops) {
-  std::vector<std::pair<Vector, Vector>> edges;
-  for (const auto& loop : loops)
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      edges.push_back(
-          std::minmax(Vector(mesh.positions[loop[k]]), Vector(mesh.positions[loop[(k + 1) % loop.size()]])));
-  std::sort(edges.begin(), edges.end());
-  return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
-}
-
 // A closed polygon that subdivides to the boundary curve.
 struct Polygon {
   std::vector<Vector> points;
@@ -178,7 +167,7 @@ FileBoundary compare_boundary(const FileEvidence& e, const SurfaceReport& report
   const auto loops = loops_of(Lattice(e.control, e.scheme(), 0));
   const FacesAround around(e.control.faces, e.control.positions.size());
   boundary.loops = static_cast<std::int64_t>(loops.size());
-  boundary.seams = has_seams(e.control, loops);
+  boundary.seams = data::summarise(e.control).coincident_boundary_edges > 0;
   boundary.touching = touching(e.control);
 
   std::vector<bool> explained;
@@ -232,24 +221,6 @@ FileBoundary compare_boundary(const FileEvidence& e, const SurfaceReport& report
   return boundary;
 }
 
-// How far the points of the cracks are from the nearest
-// other one, at most: what welding would have to bridge.
-double widest(const FileEvidence& e, const std::vector<std::int32_t>& points) {
-  std::vector<BoxTree::Box> boxes;
-  for (const std::int32_t p : points) boxes.push_back(BoxTree::around({e.position(p)}));
-  const BoxTree tree(boxes);
-  double most = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    double least = std::numeric_limits<double>::infinity();
-    tree.near(e.position(points[k]), [&](std::size_t other) {
-      if (other != k) least = std::min(least, norm(e.position(points[k]) - e.position(points[other])));
-      return least;
-    });
-    most = std::max(most, least);
-  }
-  return most;
-}
-
 }  // namespace
 
 std::vector<Result> check_file_watertight(const FileEvidence& e) {
@@ -298,13 +269,6 @@ std::vector<Result> check_file_watertight(const FileEvidence& e) {
   part(degenerate, "triangles with two corners in one place left out", false);
   say(r, boundary.remark);
   if (!cracks.empty()) {
-    std::vector<std::int32_t> points;
-    for (const auto& edge : cracks) points.insert(points.end(), {edge.from, edge.to});
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    const double width = widest(e, points) / e.surface.diagonal();
-    if (width < 1e-3)
-      r.message += fmt::format("; every point of the cracks has another within {:.2g} diagonals", width);
     r.witness = e.at_vertex(e.merged.vertex_of[cracks.front().from]);
     r.witness->triangle = number[cracks.front().triangle];
   } else if (r.bad > 0) {

@@ -141,7 +141,7 @@ std::vector<ProvenanceRow> matched_provenance(const FileEvidence& e) {
 }
 
 void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance, bool told,
-                  const std::function<void(std::size_t, std::size_t)>& on_step, Search search) {
+                  const std::function<void(std::size_t, std::size_t)>& on_step, bool quick) {
   const FileTessellation& t = e.tessellation;
   std::vector<double> flat;
   flat.reserve(3 * t.positions.size());
@@ -176,7 +176,7 @@ void place_points(FileEvidence& e, const std::vector<ProvenanceRow>& provenance,
       std::optional<Foot> foot;
       if (claim[k].face >= 0) {
         foot = e.surface.at(claim[k], p);
-      } else if (search == Search::kQuick) {
+      } else if (quick) {
         foot = e.surface.on_surface(p, slack / 4);
         e.quick[k] = foot ? 1 : 0;
       }

@@ -17,6 +17,22 @@
 
 namespace limitcheck::verify {
 
+/// What a program put in between.
+enum class Fit {
+  kNone,
+  kScale,      // one scale for all axes and an offset
+  kSimilarity  // and a rotation
+};
+
+/// Moves the tessellation by the map that brings the points it uses nearest to the surface in the sense of least squares,
+/// and says which: "scale 2.5, turned by 90 degrees about (1, 0, 0), offset (1, 2, 3); rms distance then 1e-8 diagonals".
+///   start    the bounding boxes of points and surface, in each of the 24 orientations along the axes (y up,
+///            z up ...; one for kScale); the best of them by closest points
+///   rounds   closest points, then Umeyama's similarity between pairs; at the end Gauss and Newton's steps on
+///            the distances along the normals, which converge quadratically
+///   points   at most 4096 of those that are finite, evenly chosen; of fewer than three the map is the identity
+std::string fit(const ClosestPoint& surface, FileTessellation& tessellation, Fit kind);
+
 /// A tessellation on the limit surface of its control mesh. Vertices at one place are one point.
 struct FileEvidence {
   std::string control_name;
@@ -30,7 +46,7 @@ struct FileEvidence {
   /// Of each point: the foot as a point of the domain, put on an edge or a corner if it lies there within the
   /// tolerance. Face -1: the point is not used.
   std::vector<FacePoint> place{};
-  std::vector<char> quick{};         // of each point, whether its foot was found by Search::kQuick
+  std::vector<char> quick{};         // of each point, whether its foot was looked for quickly
   std::vector<FacePoint> claimed{};  // of each vertex, by its provenance (face -1: none); empty without
 
   std::int32_t point_of(std::int32_t vertex) const { return merged.point_of[vertex]; }
@@ -63,12 +79,6 @@ inline std::vector<double> list(const Vector& v) {
   return {v.begin(), v.end()};
 }
 
-/// How feet are looked for.
-enum class Search {
-  kThorough,  ///< the whole surface for each
-  kQuick      ///< where one descent ends on the surface, within a quarter of the tolerance, that is the foot
-};
-
 /// A row's place on the surface's own domain.
 FacePoint domain_point(const FileEvidence& e, const ProvenanceRow& row);
 
@@ -79,11 +89,11 @@ std::vector<ProvenanceRow> matched_provenance(const FileEvidence& e);
 
 /// Merges, projects and places all used vertices, in parallel; those that `provenance` has, where it says. `told`: by the
 /// file's user, so that it is `claimed`. `on_step`: points done, of how many; from any
-/// thread, one at a time. Whoever would blame the file for feet that were found quickly is to search
-/// thoroughly first, because the surface may have come near itself; the other feet then stay as they are.
+/// thread, one at a time. `quick`: where one descent ends on the surface, within a quarter of the tolerance, that is the
+/// foot. Whoever would blame the file for feet that were found quickly is to search the whole surface for them
+/// first, because it may have come near itself; the other feet then stay as they are.
 void place_points(FileEvidence& evidence, const std::vector<ProvenanceRow>& provenance, bool told,
-                  const std::function<void(std::size_t, std::size_t)>& on_step,
-                  Search search = Search::kThorough);
+                  const std::function<void(std::size_t, std::size_t)>& on_step, bool quick = false);
 /// All faces of the domain that a point lies in, ascending.
 std::vector<std::int32_t> faces_with(const Domain& domain, const FacePoint& at);
 /// A point of the domain in all faces that have it, evaluated in each: on an edge that stays sharp the normals
@@ -101,10 +111,9 @@ PlacedTriangle place_triangle(const FileEvidence& e, const std::array<std::int32
 
 /// The checks; each returns its rows.
 std::vector<Result> check_file_finite(const FileEvidence& e);
-std::vector<Result> check_file_distance(const FileEvidence& e);
-std::vector<Result> check_file_positions(const FileEvidence& e);  // at the provenance claimed
-std::vector<Result> check_file_normals(const FileEvidence& e);    // file-normals, file-normal-length
-std::vector<Result> check_file_channel(const FileEvidence& e);    // none if the control mesh has no channel
+std::vector<Result> check_file_distance(const FileEvidence& e);  // file-positions, at the provenance claimed
+std::vector<Result> check_file_normals(const FileEvidence& e);   // file-normals, file-normal-length
+std::vector<Result> check_file_channel(const FileEvidence& e);   // none if the control mesh has no channel
 std::vector<Result> check_file_unused(const FileEvidence& e);
 std::vector<Result> check_file_triangles(const FileEvidence& e);  // file-degenerate
 std::vector<Result> check_file_cover(const FileEvidence& e);      // file-orientation, file-coverage

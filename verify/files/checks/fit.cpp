@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "verify/files/checks/fit.h"
-
+// Moving a tessellation to where its control mesh is: scale, offset and rotation that a program put in.
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
@@ -9,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "verify/files/checks/file_evidence.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -92,16 +94,16 @@ Affine3d normal_step(const Points& mapped, const Feet& feet, Fit kind, const Vec
          Translation3d(-centre);
 }
 
-}  // namespace
-
-Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, Fit kind) {
-  if (kind == Fit::kNone || points.size() < 3) return {};
+// What brings the points nearest to the surface, and the rms distance then.
+std::pair<Affine3d, double> nearest_map(const ClosestPoint& surface, const std::vector<Vector>& points,
+                                        Fit kind) {
+  if (points.size() < 3) return {Affine3d::Identity(), 0};
   std::vector<Vector> corners;
   for (std::size_t t = 0; t < surface.lattice().size(); ++t)
     for (const Vector& c : surface.lattice().corners(t)) corners.push_back(c);
   const Eigen::AlignedBox3d to = box_of(corners), from = box_of(points);
   const double size = to.diagonal().norm(), own_size = from.diagonal().norm();
-  if (!(size > 0 && own_size > 0)) return {};  // nothing can be laid on a point
+  if (!(size > 0 && own_size > 0)) return {Affine3d::Identity(), 0};  // nothing can be laid on a point
 
   // Where to start.
   const Points few = chosen(points, 256), some = chosen(points, 4096);
@@ -133,20 +135,34 @@ Similarity fit(const ClosestPoint& surface, const std::vector<Vector>& points, F
     best = next, feet = std::move(there), least = feet.error;
     if (done) break;
   }
-  const Vector3d first = best.linear().col(0);
-  Similarity map{.scale = kind == Fit::kScale ? first[0] : first.stableNorm(), .residual = std::sqrt(least)};
-  if (map.scale != 0) Rows::Map(map.rotation[0].data()) = best.linear() / map.scale;
-  Vector3d::Map(map.offset.data()) = best.translation();
-  return map;
+  return {best, std::sqrt(least)};
 }
 
-std::string to_string(const Similarity& map) {
-  std::string text = fmt::format("scale {}", map.scale);
-  const Eigen::AngleAxisd turn(Matrix3d(Rows::Map(map.rotation[0].data())));
+}  // namespace
+
+std::string fit(const ClosestPoint& surface, FileTessellation& t, Fit kind) {
+  std::vector<Vector> points;
+  for (std::size_t v = 0; v < t.positions.size(); ++v)
+    if (t.used[v] && is_finite(t.positions[v])) points.push_back(t.positions[v]);
+  const auto [map, residual] = nearest_map(surface, points, kind);
+  const Vector3d first = map.linear().col(0);
+  const double scale = kind == Fit::kScale ? first[0] : first.stableNorm();
+  std::array<Vector, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // rows
+  if (scale != 0) Rows::Map(rotation[0].data()) = map.linear() / scale;
+  const Vector offset{map.translation()[0], map.translation()[1], map.translation()[2]};
+  const auto turned = [&](const Vector& x) {
+    return Vector{dot(rotation[0], x), dot(rotation[1], x), dot(rotation[2], x)};
+  };
+  for (Vector& p : t.positions) p = offset + scale * turned(p);
+  for (auto& n : t.normals) n.direction = turned(n.direction);
+
+  std::string text = fmt::format("scale {}", scale);
+  const Eigen::AngleAxisd turn(Matrix3d(Rows::Map(rotation[0].data())));
   if (turn.angle() > 1e-12)
     text += fmt::format(", turned by {:.6f} degrees about ({:.6f}, {:.6f}, {:.6f})",
                         turn.angle() * 57.295779513082320877, turn.axis()[0], turn.axis()[1], turn.axis()[2]);
-  return text + fmt::format(", offset ({}, {}, {})", map.offset[0], map.offset[1], map.offset[2]);
+  return text + fmt::format(", offset ({}, {}, {}); rms distance then {:.3g} diagonals", offset[0], offset[1],
+                            offset[2], residual / surface.diagonal());
 }
 
 }  // namespace limitcheck::verify

@@ -8,6 +8,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "verify/files/checks/overlay.h"
+#include "verify/interrupt/interrupt.h"
+#include "verify/projection/surface_lattice.h"
+
 namespace limitcheck::verify {
 namespace {
 
@@ -17,7 +21,7 @@ constexpr Barycentric kMiddles[] = {{1. / 3, 1. / 3, 1. / 3}, {.5, .5, 0}, {0, .
 constexpr int kLooseSplits = 3;
 constexpr std::size_t kExact = 400;  // places at which the distance is computed
 
-double longest_side(const std::array<Vector, 3>& t) {
+double longest_side(const Corners& t) {
   return std::max({norm(t[0] - t[1]), norm(t[1] - t[2]), norm(t[2] - t[0])});
 }
 
@@ -25,9 +29,8 @@ double longest_side(const std::array<Vector, 3>& t) {
 // finer bounds where they are still too far above.
 class OneWay {
  public:
-  OneWay(const FileEvidence& e, const Overlay& overlay, const std::vector<Bound>& bounds, bool forwards,
-         const std::function<void()>& tick)
-      : e_(e), overlay_(overlay), bounds_(bounds), forwards_(forwards), tick_(tick), order_(bounds.size()) {
+  OneWay(const FileEvidence& e, const Overlay& overlay, const std::vector<Bound>& bounds, bool forwards)
+      : e_(e), overlay_(overlay), bounds_(bounds), forwards_(forwards), order_(bounds.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::sort(order_.begin(), order_.end(),
               [&](std::size_t x, std::size_t y) { return value(bounds_[x]) > value(bounds_[y]); });
@@ -52,7 +55,7 @@ class OneWay {
       const Bound& bound = bounds_[order_[k]];
       if (!forwards_ && !(bound.from_surface > 0)) break;
       if (forwards_ && (bound.triangle < 0 || reach(bound.triangle) <= enough())) continue;
-      tick_();
+      end_if_interrupted();
       if (forwards_)
         from_triangle(bound);
       else
@@ -60,7 +63,7 @@ class OneWay {
     }
     for (const std::int32_t t : overlay_.loose()) {
       if (!forwards_ || reach(t) <= enough()) continue;
-      tick_();
+      end_if_interrupted();
       sample(overlay_.corners(t));
     }
   }
@@ -73,7 +76,7 @@ class OneWay {
         bracket_.at_most = std::max(bracket_.at_most, std::min(bound, enough()));
         return;
       }
-      tick_();
+      end_if_interrupted();
       const Piece piece = e_.surface.lattice().piece(k);
       const double most = refine(piece, Overlay::near(piece, overlay_.over(piece.face)), bracket_.at_most, 0);
       bracket_.at_most = std::max(bracket_.at_most, most);
@@ -83,7 +86,7 @@ class OneWay {
   void bound_loose() {
     for (const std::int32_t t : overlay_.loose()) {
       const double known = std::max(enough(), bracket_.at_most), bound = reach(t);
-      if (bound > known) tick_();
+      if (bound > known) end_if_interrupted();
       bracket_.at_most =
           std::max(bracket_.at_most, bound <= known ? bound : at_most(overlay_.corners(t), known, 0));
     }
@@ -122,12 +125,12 @@ class OneWay {
 
   // The same from a triangle.
   void from_triangle(const Bound& bound) {
-    const std::array<Vector, 3>& corners = overlay_.corners(bound.triangle);
+    const Corners& corners = overlay_.corners(bound.triangle);
     sample(corners);
     if (bound.at_triangles.face >= 0) from_triangle(mix(corners, bound.weight));
   }
   // A triangle's middle and those of its sides.
-  void sample(const std::array<Vector, 3>& t) {
+  void sample(const Corners& t) {
     for (const Barycentric& weight : kMiddles) from_triangle(mix(t, weight));
   }
   // Where a point of the surface is near enough the nearest need not be known.
@@ -149,12 +152,12 @@ class OneWay {
   }
 
   // The same of a triangle that is not over one face, cut smaller.
-  double at_most(const std::array<Vector, 3>& t, double enough, int level) const {
+  double at_most(const Corners& t, double enough, int level) const {
     double corner = 0;
     for (const Vector& p : t) corner = std::max(corner, e_.surface.at_most(p));
     const double bound = corner + longest_side(t) / std::sqrt(3.0);
     if (bound <= enough || level == kLooseSplits) return bound;
-    const std::array<Vector, 3> m{.5 * (t[0] + t[1]), .5 * (t[1] + t[2]), .5 * (t[2] + t[0])};
+    const Corners m{.5 * (t[0] + t[1]), .5 * (t[1] + t[2]), .5 * (t[2] + t[0])};
     double most = 0;
     for (const auto& child : {std::array{t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, m})
       most = std::max(most, at_most(child, std::max(enough, most), level + 1));
@@ -165,18 +168,17 @@ class OneWay {
   const Overlay& overlay_;
   const std::vector<Bound>& bounds_;  // of the lattice's pieces
   const bool forwards_;               // from the triangles to the surface
-  const std::function<void()>& tick_;
-  std::vector<std::size_t> order_;  // of the bounds, the largest first
+  std::vector<std::size_t> order_;    // of the bounds, the largest first
   Bracket bracket_;
 };
 
 // A control face as one flat polygon of the limits of its corners, cut as files are: a fan from the first.
-std::vector<std::array<Vector, 3>> one_polygon(const FileEvidence& e, std::int32_t face) {
+std::vector<Corners> one_polygon(const FileEvidence& e, std::int32_t face) {
   const LimitSurface& surface = e.surface.surface();
   std::vector<Vector> corner;
   for (std::size_t k = 0; k < e.control.faces[face].size(); ++k)
     corner.push_back(e.surface.at(surface.control_corner(face, static_cast<int>(k)), {}).position);
-  std::vector<std::array<Vector, 3>> fan;
+  std::vector<Corners> fan;
   for (std::size_t k = 1; k + 1 < corner.size(); ++k) fan.push_back({corner[0], corner[k], corner[k + 1]});
   return fan;
 }
@@ -205,8 +207,7 @@ double from_one_polygon_each(const FileEvidence& e) {
 
 }  // namespace
 
-Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick) {
-  tick();
+Hausdorff hausdorff(const FileEvidence& e) {
   const Overlay overlay(e);
   const SurfaceLattice& lattice = e.surface.lattice();
   std::vector<Bound> bounds(lattice.size());
@@ -217,23 +218,22 @@ Hausdorff hausdorff(const FileEvidence& e, const std::function<void()>& tick) {
   Hausdorff result;
   result.loose = static_cast<std::int64_t>(overlay.loose().size());
   result.one_polygon_each = from_one_polygon_each(e);
-  result.from_triangles = OneWay(e, overlay, bounds, true, tick).run();
-  result.from_surface = OneWay(e, overlay, bounds, false, tick).run();
+  result.from_triangles = OneWay(e, overlay, bounds, true).run();
+  result.from_surface = OneWay(e, overlay, bounds, false).run();
   return result;
 }
 
-std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
-                                         const std::function<void()>& tick) {
+std::vector<Result> check_file_hausdorff(const FileEvidence& e, std::optional<double> bound) {
   Result r = e.result("file-hausdorff", "diagonal");
   if (lacks(e.tessellation.triangles, "faces", r)) return {r};
-  const Hausdorff h = hausdorff(e, tick);
+  const Hausdorff h = hausdorff(e);
   const double size = e.surface.diagonal();
   const bool forwards = h.from_triangles.at_least >= h.from_surface.at_least;
   const Bracket& larger = forwards ? h.from_triangles : h.from_surface;
   r.of = 1;
   r.worst = r.rms = larger.at_least / size;
   r.worst_absolute = larger.at_least;
-  r.bound = bound >= 0 ? bound : h.one_polygon_each / size + e.tolerance;
+  r.bound = bound.value_or(h.one_polygon_each / size + e.tolerance);
   const double most = std::max(h.from_triangles.at_most, h.from_surface.at_most) / size;
   r.message = fmt::format(
       "Hausdorff distance between {:.3e} and {:.3e} diagonals (triangles to surface {:.3e} to {:.3e}, "
@@ -241,10 +241,10 @@ std::vector<Result> check_file_hausdorff(const FileEvidence& e, double bound,
       *r.worst, most, h.from_triangles.at_least / size, h.from_triangles.at_most / size,
       h.from_surface.at_least / size, h.from_surface.at_most / size);
   const bool loop = e.scheme() == data::Scheme::kLoop;
-  if (bound < 0)
+  if (!bound)
     r.message += fmt::format("; the bound is that of one {} per control face", loop ? "triangle" : "polygon");
   const std::size_t triangles_each = e.control.faces.corners().size() - 2 * e.control.faces.size();
-  if (bound < 0 && e.tessellation.triangles.size() <= triangles_each)
+  if (!bound && e.tessellation.triangles.size() <= triangles_each)
     r.message += ", which this file is: only --max-deviation can judge it";
   if (h.loose > 0)
     r.message += fmt::format(

@@ -18,21 +18,19 @@ namespace {
 using data::InputError;
 using Words = std::vector<std::string_view>;
 
+// The tab parts words, too.
 Words split(std::string_view line) {
+  constexpr std::string_view kSpace = " \n\v\f\r";
   Words words;
-  for (;;) {
-    const std::size_t comma = line.find_first_of(",;\t");
-    std::string_view word = line.substr(0, comma);
-    while (!word.empty() && std::isspace(static_cast<unsigned char>(word.front())) != 0)
-      word.remove_prefix(1);
-    while (!word.empty() && std::isspace(static_cast<unsigned char>(word.back())) != 0) word.remove_suffix(1);
-    words.push_back(word);
-    if (comma == std::string_view::npos) return words;
-    line.remove_prefix(comma + 1);
+  for (std::size_t begin = 0, end = 0; begin <= line.size(); begin = end + 1) {
+    end = std::min(line.find_first_of(",;\t", begin), line.size());
+    std::string_view word = line.substr(begin, end - begin);
+    word.remove_prefix(std::min(word.find_first_not_of(kSpace), word.size()));
+    words.push_back(word.substr(0, word.find_last_not_of(kSpace) + 1));
   }
+  return words;
 }
 
-// Where each column of the longer form stands.
 constexpr std::string_view kColumns[] = {"vertex", "face", "l1", "l2", "i", "j", "denominator", "corner"};
 enum Column { kVertex, kFace, kL1, kL2, kI, kJ, kDenominator, kCorner, kCount };
 
@@ -69,14 +67,11 @@ std::vector<ProvenanceRow> parse_provenance(std::string_view content, const std:
     if (width == 0) {
       width = words.size();
       const bool heading = !words[0].empty() && std::isalpha(static_cast<unsigned char>(words[0][0])) != 0;
-      if (heading) {
-        for (std::size_t k = 0; k < width; ++k)
-          if (const Column c = column(words[k]); c != kCount) place[c] = static_cast<int>(k);
-      } else if (width == 4) {
-        place = {0, 1, 2, 3, -1, -1, -1, -1};
-      } else if (width == 5) {
-        place = {0, 1, -1, -1, 2, 3, 4, -1};
-      }
+      const Words names = heading      ? words
+                          : width == 4 ? split("vertex,face,l1,l2")
+                                       : split("vertex,face,i,j,denominator");
+      for (std::size_t k = 0; k < names.size() && (heading || width == 4 || width == 5); ++k)
+        if (const Column c = column(names[k]); c != kCount) place[c] = static_cast<int>(k);
       const bool real = place[kL1] >= 0 && place[kL2] >= 0;
       const bool lattice = place[kI] >= 0 && place[kJ] >= 0 && place[kDenominator] >= 0;
       if (place[kVertex] < 0 || place[kFace] < 0 || !(real || lattice))

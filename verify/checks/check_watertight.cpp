@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "data/summary.h"
 #include "verify/checks/checks.h"
 #include "verify/checks/welded_surface.h"
 #include "verify/watertight/watertight.h"
@@ -291,8 +292,9 @@ std::vector<Result> check_watertight(const Evidence& e) {
   const auto mention = [&](std::int64_t count, const char* what) {
     if (count > 0) say(surface, fmt::format("the control mesh has {} {}", count, what));
   };
-  mention(coincident_boundary_edges(e), "coincident boundary edges");
-  mention(faces_without_area(e), "faces without area");
+  const data::MeshSummary control = data::summarise(e.mesh);
+  mention(control.coincident_boundary_edges, "coincident boundary edges");
+  mention(control.zero_area_faces, "faces without area");
   surface.not_finite = not_finite(e.tessellation);
   if (surface.not_finite > 0)
     say(surface, fmt::format("{} vertices that are not finite go with the others of their lattice points",

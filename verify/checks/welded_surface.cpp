@@ -46,28 +46,6 @@ Welded weld(const Evidence& e) {
   return welded;
 }
 
-std::int64_t coincident_boundary_edges(const Evidence& e) {
-  std::map<std::pair<Vector, Vector>, std::int64_t> edges;  // how many have these ends
-  for (const Lattice::Edge& edge : e.lattice.edges())
-    if (edge.on_boundary()) ++edges[std::minmax({e.mesh.positions[edge.a], e.mesh.positions[edge.b]})];
-  std::int64_t count = 0;
-  for (const auto& [ends, times] : edges) count += times > 1 ? times : 0;
-  return count;
-}
-
-std::int64_t faces_without_area(const Evidence& e) {
-  std::int64_t count = 0;
-  for (std::size_t f = 0; f < e.mesh.faces.size(); ++f) {
-    const auto corner = e.mesh.faces[f];
-    const auto& a = e.mesh.positions;
-    Vector area{};  // twice, of a fan from the first corner
-    for (std::size_t k = 1; k + 1 < corner.size(); ++k)
-      area = area + cross(a[corner[k]] - a[corner[0]], a[corner[k + 1]] - a[corner[0]]);
-    count += largest(area) == 0;
-  }
-  return count;
-}
-
 namespace {
 
 // The points on each edge, its ends apart, that are corners of triangles.

@@ -24,13 +24,6 @@ struct Welded {
 };
 Welded weld(const Evidence& e);
 
-/// Boundary edges of the control mesh whose two ends lie where those of another one do: the two sides of
-/// seams.
-std::int64_t coincident_boundary_edges(const Evidence& e);
-
-/// Control faces whose area vector vanishes: triangles whose corners lie on a line.
-std::int64_t faces_without_area(const Evidence& e);
-
 /// The control edges with one visible face. Faces that meet in a control vertex only, because those between
 /// them are culled, are no fault: such a vertex counts once for each fan of visible faces.
 class Outline {

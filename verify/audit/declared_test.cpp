@@ -4,6 +4,8 @@
 
 #include <cstring>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "data/generators/named_mesh.h"
 #include "data/test_support/assertions.h"
@@ -84,29 +86,22 @@ TEST(Declared, ARefusalOfWhatIsNotDeclaredIsNone) {
 
 TEST(Declared, CapabilitiesThatMeanNothingAreAFinding) {
   const lc_subject subject = particular();
-  const auto finding = [&](const char* what) {
+  const std::vector<std::tuple<const char*, void*, std::int32_t>> wrong{
+      {"weights is 9", &declared.weights, 9},
+      {"precision is 7", &declared.precision, 7},
+      {"boundary is -1", &declared.boundary, -1},
+      {"points is 2", &declared.points, 2},
+      {"normals is 5", &declared.normals, 5},
+      {"per_face_depth is 2", &declared.per_face_depth, 2},
+      {"exact_lattice is 3", &declared.exact_lattice, 3},
+      {"max_depth is -1", &declared.max_depth, -1}};
+  for (const auto& [what, field, number] : wrong) {
+    std::memcpy(field, &number, sizeof number);
     const Result r = tessellates(subject, mesh("tetrahedron"));
     EXPECT_EQ(r.status, Status::kFinding) << what << ": " << r.message;
     EXPECT_TRUE(says(r.message, what));
     declared = capabilities(good());
-  };
-  const auto set = [](auto& value, int number) { std::memcpy(&value, &number, sizeof number); };
-  set(declared.weights, 9);
-  finding("weights is 9");
-  set(declared.precision, 7);
-  finding("precision is 7");
-  set(declared.boundary, -1);
-  finding("boundary is -1");
-  set(declared.points, 2);
-  finding("points is 2");
-  declared.normals = 5;
-  finding("normals is 5");
-  declared.per_face_depth = 2;
-  finding("per_face_depth is 2");
-  declared.exact_lattice = 3;
-  finding("exact_lattice is 3");
-  declared.max_depth = -1;
-  finding("max_depth is -1");
+  }
 }
 
 TEST(Declared, AllCulledIsToDeliverNothingAndIsNoFault) {
@@ -176,16 +171,6 @@ TEST(Weights, SoundSubjectsOfWarrensHold) {
     for (const auto& results : {audit("model", "weights=warren", mesh, Level::kThorough), refined})
       for (const Result& r : results) EXPECT_FALSE(is_bad(r)) << mesh << ' ' << r.check << ": " << r.message;
   }
-}
-
-TEST(Weights, OfTheOtherFamilyAreFound) {
-  for (const auto& [check, options] : {std::pair{"positions", "mutation=warren_weights"},
-                                       {"positions", "mutation=warren_declared"},
-                                       {"positions", "mutation=warren_limit_of_loop"},
-                                       {"refined-positions", "points=refined,mutation=warren_weights"},
-                                       {"refined-positions", "points=refined,mutation=warren_declared"}})
-    EXPECT_EQ(row(audit("model", options, "octahedron", Level::kQuick), check).status, Status::kFinding)
-        << options;
 }
 
 TEST(Weights, TheReferenceIsKeptForEachFamily) {

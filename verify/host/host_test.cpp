@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The host trusts nothing: every way of handing back bad memory or bad indices is a defect, none is a crash.
+// The host trusts nothing. What it makes of bad memory and bad indices: verify/host/isolation/behaviours_test.cpp.
 #include "verify/host/host.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,6 @@
 #include "verify/host/host_memory.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/subject/registry.h"
-
-extern "C" const lc_subject* subject_in_c(void);
 
 namespace {
 
@@ -63,12 +61,6 @@ TEST(Capabilities, WithoutProvenanceDepthsAreUniform) {
     return out->no_provenance = 1, LC_OK;
   };
   EXPECT_EQ(capabilities(subject).no_provenance, 1);
-}
-
-TEST(PlugInInterface, IsPlainC) {
-  Session session(*subject_in_c(), octahedron());
-  EXPECT_EQ(session.tessellate(0).vertex_count(), 0);
-  EXPECT_EQ(status_of([] { Session(*subject_in_c(), octahedron(), "a=b"); }), LC_INVALID_INPUT);
 }
 
 TEST(PlugInInterface, RefusesAnotherInterfaceVersion) {
@@ -161,18 +153,6 @@ TEST(Host, DoesNotAskForDepthsBeyondTheCapabilities) {
   EXPECT_THROW(session.tessellate(1, 0), data::ArgumentError);
 }
 
-TEST(Host, SeesWritesOutsideTheArrays) {
-  const Tessellation behind = planted("write_behind");
-  ASSERT_EQ(behind.overruns().size(), 1u);
-  EXPECT_EQ(behind.overruns()[0].array, "positions");
-  EXPECT_FALSE(behind.overruns()[0].before);
-  EXPECT_LE(behind.overruns()[0].distance, 8);
-  const Tessellation before = planted("write_before");
-  ASSERT_EQ(before.overruns().size(), 1u);
-  EXPECT_TRUE(before.overruns()[0].before);
-  EXPECT_LE(before.overruns()[0].distance, 8);
-}
-
 // Whatever the pattern's secret is.
 TEST(Host, SeesTheLastByteOfANumberOutsideAnArray) {
   for (int k = 0; k < 3000; ++k)
@@ -226,35 +206,6 @@ TEST(Host, HandsOutAlignedMemoryFullOfOnes) {
   EXPECT_TRUE(t.overruns().empty());
 }
 
-TEST(Host, ReportsContentsOutOfRangeAndHandsThemOn) {
-  const Tessellation indices = planted("index_out_of_range");
-  EXPECT_TRUE(has_only(indices, Kind::kIndexOutOfRange, "triangles"));
-  ASSERT_EQ(indices.triangle_count(), 128);
-  EXPECT_FALSE(indices.triangle_ok(indices.defects()[0].first));
-  const Tessellation places = planted("provenance_out_of_range");
-  EXPECT_TRUE(has_only(places, Kind::kProvenanceOutOfRange, "provenance"));
-  EXPECT_FALSE(places.provenance_ok(places.defects()[0].first));
-}
-
-TEST(Host, TakesNothingFromMemoryItCannotTrust) {
-  struct Case {
-    const char* fault;
-    Kind kind;
-    const char* array;
-  };
-  for (const Case& c : {Case{"negative_count", Kind::kNegativeCount, ""},
-                        Case{"foreign_memory", Kind::kForeignPointer, "normals"},
-                        Case{"overlapping_arrays", Kind::kOverlappingArrays, "normals"}}) {
-    const Tessellation t = planted(c.fault);
-    EXPECT_TRUE(has_only(t, c.kind, c.array)) << c.fault;
-    EXPECT_EQ(t.vertex_count() + t.triangle_count(), 0) << c.fault;
-  }
-  const Tessellation large = planted("count_too_large");
-  EXPECT_EQ(large.defects().size(), 3u);  // positions, normals, provenance
-  EXPECT_EQ(large.defects()[0].kind, Kind::kArrayTooSmall);
-  EXPECT_EQ(large.vertex_count(), 0);
-}
-
 // Normals may be missing, and that excuses no other array.
 TEST(Host, ReadsNoPositionsThatAreMissingTogetherWithTheNormals) {
   lc_subject subject = *lc_subject_null();
@@ -272,18 +223,6 @@ TEST(Host, ReadsNoPositionsThatAreMissingTogetherWithTheNormals) {
   EXPECT_EQ(t.vertex_count(), 0);
 }
 
-TEST(Host, SeesThatTheControlMeshWasWrittenTo) {
-  EXPECT_TRUE(has_only(planted("modified_mesh"), Kind::kMeshModified, "mesh"));
-}
-
-// A subject may be C++ and throw through the interface.
-TEST(Host, TurnsExceptionsOfASubjectIntoFailures) {
-  lc_subject subject = *lc_subject_null();
-  subject.tessellate = [](void*, const lc_request*, lc_tessellation*, const char**) -> lc_status { throw 1; };
-  Session session(subject, octahedron());
-  EXPECT_EQ(status_of([&] { session.tessellate(1); }), LC_FAILED);
-}
-
 // NULL where memory is impossible, not an exception through C.
 TEST(Host, RefusesMemoryBeyondAllReason) {
   lc_subject subject = *lc_subject_null();
@@ -292,40 +231,6 @@ TEST(Host, RefusesMemoryBeyondAllReason) {
   };
   Session session(subject, octahedron());
   EXPECT_EQ(status_of([&] { session.tessellate(1); }), LC_NOT_SUPPORTED);
-}
-
-// Each fault changes what is delivered: a fault that does nothing would make a check look blind. (Faults that
-// need another mesh are the business of verify/mutants.)
-TEST(FaultySubject, EveryFaultChangesSomething) {
-  const Tessellation good = planted("none");
-  const auto bytes = [](const Tessellation& t) {
-    std::string all;
-    const auto add = [&](const auto span) {
-      all.append(reinterpret_cast<const char*>(span.data()), span.size_bytes());
-      all += '|';
-    };
-    add(t.positions_f64());
-    add(t.normals_f64());
-    add(t.provenance());
-    add(t.triangles());
-    add(t.triangle_face());
-    return all + std::to_string(t.defects().size()) + std::to_string(t.overruns().size());
-  };
-  for (const Fault& fault : faults()) {
-    if (fault.on_some_meshes) continue;  // the kill table shows them at work
-    EXPECT_EQ(bytes(planted(std::string(fault.name).c_str())) == bytes(good), fault.name == "none")
-        << fault.name;
-  }
-}
-
-TEST(FaultySubject, CrackAndTVertexKeepEveryOtherPoint) {
-  const Tessellation good = planted("none"), crack = planted("one_ulp_crack"), t_vertex = planted("t_vertex");
-  EXPECT_EQ(crack.vertex_count(), good.vertex_count() + 1);
-  EXPECT_EQ(crack.triangle_count(), good.triangle_count());
-  EXPECT_EQ(t_vertex.vertex_count(), good.vertex_count());
-  EXPECT_EQ(t_vertex.triangle_count(), good.triangle_count() - 1);
-  EXPECT_EQ(status_of([] { planted("t_vertex", 0); }),
-            LC_NOT_SUPPORTED);  // no point inside an edge at depth 0
 }
 
 TEST(Registry, FindsEverySubjectByItsName) {

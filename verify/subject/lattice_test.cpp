@@ -47,12 +47,6 @@ TEST(Lattice, GivesBackTheCoordinatesOfEveryFaceThatTouchesAPoint) {
   }
 }
 
-TEST(Lattice, ProvenanceRoundTrips) {
-  const data::ControlMesh mesh = data::bipyramid(7);
-  const Lattice lattice(mesh, 3);
-  for (Lattice::Id id = 0; id < lattice.size(); ++id) EXPECT_EQ(lattice.id(lattice.place(id)), id);
-}
-
 // Corners are searched for; the answers are those of going through them.
 TEST(Lattice, KnowsTheCornersAndSidesOfPolygonsOfAnySize) {
   for (const int n : {5, 16, 17, 100}) {

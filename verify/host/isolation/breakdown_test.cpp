@@ -2,14 +2,10 @@
 // Subjects that break down in every way we know of: each is a row with the right status and the input that
 // caused it, and the rest of the audit completes. As a user runs it: `limitcheck audit`.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
-#include <thread>
 
 #include "verify/cli/command_test.h"
 
@@ -112,30 +108,16 @@ INSTANTIATE_TEST_SUITE_P(
     EachWay, Hostile,
     testing::Values(
         Case{"segfault@tessellate", "tessellates", "crash", "killed by SIGSEGV"},
-        Case{"abort@tessellate", "tessellates", "crash", "killed by SIGABRT"},
-        Case{"stack@tessellate", "tessellates", "crash", "killed by SIGSEGV"},
-        Case{"erase_all@answer", "tessellates", "crash", "killed by SIG"},
         Case{"exit0@tessellate", "tessellates", "crash", "exit status 0 before its answer"},
         Case{"segfault@create", "tessellates", "crash", "killed by SIGSEGV"},
         Case{"abort@destroy", "tessellates", "crash", "at the end"},
         Case{"throw@tessellate", "tessellates", "error", "tessellate() threw: out of luck"},
-        Case{"throw_int@tessellate", "tessellates", "error", "tessellate() threw"},
         Case{"sleep@tessellate", "tessellates", "timeout", "no complete answer within 3 s", "--timeout 3"},
-        Case{"spin@tessellate", "tessellates", "timeout", "no complete answer within 3 s", "--timeout 3"},
         Case{"memory@tessellate", "tessellates", "crash", "500 MiB are allowed", "--memory 500"},
         Case{"leak@tessellate", "tessellates", "held", ""},
-        Case{"print@tessellate", "tessellates", "held", ""},
-        Case{"write_to_1@tessellate", "tessellates", "held", ""},
-        Case{"close_standard@tessellate", "tessellates", "held", ""},
-        Case{"huge_vertex_count@answer", "written", "finding", "vertex_count is 1152921504606846976"},
-        Case{"garbage_counts@answer", "written", "finding", "vertex_count is 6510615555426900570"},
-        Case{"negative_triangles@answer", "written", "finding", "triangle_count is -9223372036854775808"},
-        Case{"write_8_behind@answer", "written", "finding", "positions written 8 bytes behind its memory"},
         Case{"write_8_before@answer", "written", "finding",
              "positions written 8 bytes in front of its memory"},
         Case{"heap_positions@answer", "written", "finding", "positions is not memory from allocate()"},
-        Case{"modify_positions@answer", "written", "finding",
-             "changed 1 vertices or faces of the control mesh"},
         Case{"throw@release", "written", "finding", "release() threw"}),
     [](const auto& of) {
       const std::string what = of.param.what;
@@ -198,6 +180,7 @@ TEST_F(Breakdown, ProgramsThatBreakTheProtocolAreFindings) {
       {"echo oops >&2; exit 3", "crash",
        "exit status 3 before its answer was complete; its standard error: oops"},
       {"kill -KILL $$", "crash", "killed by SIGKILL"},
+      {"head -n 1 hello; exit 127", "crash", "exit status 127 before its answer"},
       {"sleep 1000", "timeout", "within 1 s", "--timeout 1"},
       {"yes >&2", "timeout", "its standard error ends in: ", "--timeout 1"},
       {"cat hello; sleep 1000", "finding", "wrote more on its standard output than it announced"},
@@ -282,26 +265,6 @@ for line in sys.stdin.buffer:
   ASSERT_EQ(got.size(), 2U * (4 + 24 * 12 + 12 * 20 + 4 * 20));
   EXPECT_EQ(got.substr(0, got.size() / 2), got.substr(got.size() / 2))
       << "the repeated call got another input";
-}
-
-TEST_F(Breakdown, WhatAProgramStartedEndsWithIt) {
-  // The number that a process has in its own namespace says nothing here: the processes are known by what
-  // they run.
-  const std::string unique = std::to_string(getpid()) + "001";
-  const auto alive = [&] {
-    std::error_code error;
-    for (fs::directory_iterator p("/proc", error), end; !error && p != end; p.increment(error)) {
-      std::ifstream in(p->path() / "cmdline", std::ios::binary);
-      const std::string words{std::istreambuf_iterator<char>(in), {}};
-      if (words.starts_with("sleep") && words.find(unique) != std::string::npos) return true;
-    }
-    return false;
-  };
-  report_of("audit --program 'sleep " + unique + " & touch up; wait' tetrahedron --timeout 1 --json -", 1);
-  EXPECT_TRUE(fs::exists(folder_ / "up"));
-  // It was sent SIGKILL before the audit ended; the machine may take its time.
-  for (int k = 0; k < 1000 && alive(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_FALSE(alive());
 }
 
 TEST_F(Breakdown, BuiltInSubjectsRunIsolatedToTheSameResults) {

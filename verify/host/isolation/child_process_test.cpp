@@ -86,13 +86,6 @@ TEST_F(Process, IsKilledWhenItsTimeIsOver) {
   EXPECT_EQ(kind_of([&] { drip.line(1000); }), Kind::kTimeout) << "the time is for the whole answer";
 }
 
-TEST_F(Process, IsKilledWithItsChildrenWhenTheyTakeTooMuchMemory) {
-  ChildProcess child(sh("python3 -c 'import time; x = bytes([1]) * (300 << 20); time.sleep(1000)'; :"),
-                     {60, 200});
-  child.ask("?");
-  EXPECT_EQ(kind_of([&] { child.line(100); }, "200 MiB are allowed"), Kind::kMemory);
-}
-
 TEST_F(Process, LeavesAReceiptOfWhatItTook) {
   Receipt receipt;
   {
@@ -131,10 +124,6 @@ TEST_F(Process, LeavesAReceiptOfWhatItTook) {
   EXPECT_EQ(receipt.over_memory, 1);
   EXPECT_GT(receipt.peak_shared, 150 << 20) << "an interpreter itself has less than 50 of the 200 MiB";
   EXPECT_EQ(receipt.processes, 5);
-}
-
-TEST_F(Process, IsGoneWithTheObject) {
-  ChildProcess idle(sh("sleep 1000"), {});
 }
 
 TEST_F(Process, ThatCannotBeStartedSaysSo) {

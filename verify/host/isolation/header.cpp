@@ -19,8 +19,8 @@ std::string to_line(const nlohmann::json& json) {
 
 nlohmann::json names_of(std::int32_t bits, Names names) {
   nlohmann::json list = nlohmann::json::array();
-  for (const auto& [name, bit] : names)
-    if ((bits & bit) != 0) list.push_back(name);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if ((bits >> k & 1) != 0) list.push_back(names[k]);
   return list;
 }
 
@@ -76,9 +76,9 @@ std::string Header::text(const char* key) const {
   return value.get<std::string>();
 }
 
-int Header::choice(const char* key, std::initializer_list<std::string_view> choices) const {
+int Header::choice(const char* key, Names choices) const {
   const std::string value = text(key);
-  const auto* const found = std::find(choices.begin(), choices.end(), value);
+  const auto found = std::find(choices.begin(), choices.end(), value);
   if (found == choices.end()) {
     throw Error(fmt::format("\"{}\": \"{}\" is none of {}", key, printable(value, 40),
                             fmt::join(choices.begin(), choices.end(), ", ")));
@@ -90,8 +90,8 @@ std::int32_t Header::bits(const char* key, Names names) const {
   const nlohmann::json& list = at(key);
   if (!list.is_array()) throw Error(fmt::format("\"{}\" is no list", key));
   std::int32_t bits = 0;
-  for (const auto& [name, bit] : names)
-    if (std::find(list.begin(), list.end(), name) != list.end()) bits |= bit;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (std::find(list.begin(), list.end(), names[k]) != list.end()) bits |= 1 << k;
   return bits;
 }
 
@@ -100,9 +100,7 @@ std::vector<ChannelHeader> Header::channels() const {
   if (!has("channels")) return result;
   for (const nlohmann::json& channel : at("channels")) {
     const Header c(channel.dump());
-    const auto rule =
-        c.choice("rule", {kChannelRules[0].first, kChannelRules[1].first, kChannelRules[2].first,
-                          kChannelRules[3].first, kChannelRules[4].first, kChannelRules[5].first});
+    const int rule = c.choice("rule", data::kChannelRules);
     result.push_back({static_cast<std::int32_t>(c.integer("components", 1, data::kMostComponents)),
                       static_cast<lc_channel_rule>(rule), c.integer("values", 0, INT32_MAX)});
   }
@@ -110,8 +108,7 @@ std::vector<ChannelHeader> Header::channels() const {
 }
 
 void Header::refuse_unless_ok() const {
-  const auto status = static_cast<lc_status>(
-      choice("status", {kStatusWords[0], kStatusWords[1], kStatusWords[2], kStatusWords[3]}));
+  const auto status = static_cast<lc_status>(choice("status", kStatusWords));
   if (status == LC_OK) return;
   const std::string message = has("message") ? text("message") : "";
   throw SubjectError(status, message.empty() ? "no reason was given" : printable(message, 1000));

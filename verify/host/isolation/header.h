@@ -2,7 +2,6 @@
 // The JSON line before a payload. Private to the protocol: it shows nlohmann's headers.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -10,34 +9,18 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "verify/host/isolation/protocol.h"
 
 namespace limitcheck::verify::protocol {
 
-/// The words of lc_status, in its order.
-inline constexpr std::array<const char*, 4> kStatusWords{"ok", "not-supported", "invalid-input", "failed"};
-
-/// The bits of lc_capabilities by the names that questions and answers give them.
-using Names = std::span<const std::pair<std::string_view, std::int32_t>>;
-inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 2> kSchemes{
-    {{"loop", LC_DOES_LOOP}, {"catmull-clark", LC_DOES_CATMULL_CLARK}}};
-inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kSharpKinds{
-    {{"creases", LC_SHARP_CREASES},
-     {"semi-sharp", LC_SHARP_SEMI},
-     {"chaikin", LC_SHARP_CHAIKIN},
-     {"corners", LC_SHARP_CORNERS},
-     {"smooth-triangles", LC_SHARP_SMOOTH_TRIANGLES},
-     {"no-darts", LC_SHARP_NO_DARTS}}};
-inline constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kChannelRules{
-    {{"none", 1 << LC_CHANNEL_NONE},
-     {"corners-only", 1 << LC_CHANNEL_CORNERS_ONLY},
-     {"corners-plus1", 1 << LC_CHANNEL_CORNERS_PLUS1},
-     {"corners-plus2", 1 << LC_CHANNEL_CORNERS_PLUS2},
-     {"boundaries", 1 << LC_CHANNEL_BOUNDARIES},
-     {"all", 1 << LC_CHANNEL_ALL}}};
+/// Words by their number: of lc_status, and of the bits 1, 2, 4 .. of lc_capabilities (of channel rules data::kChannelRules).
+using Names = std::span<const std::string_view>;
+inline constexpr std::string_view kStatusWords[]{"ok", "not-supported", "invalid-input", "failed"};
+inline constexpr std::string_view kSchemes[]{"loop", "catmull-clark"};
+inline constexpr std::string_view kSharpKinds[]{"creases", "semi-sharp",       "chaikin",
+                                                "corners", "smooth-triangles", "no-darts"};
 nlohmann::json names_of(std::int32_t bits, Names names);
 
 /// The arrays of a mesh as bytes, in the order in which they are sent. Write to the bytes only if the arrays of the
@@ -64,7 +47,10 @@ class Header {
   bool flag(const char* key) const;
   std::string text(const char* key) const;
   /// The index of the value among `choices`.
-  int choice(const char* key, std::initializer_list<std::string_view> choices) const;
+  int choice(const char* key, Names choices) const;
+  int choice(const char* key, std::initializer_list<std::string_view> choices) const {
+    return choice(key, Names(choices.begin(), choices.size()));
+  }
   /// Of a mesh; none if there is no such key.
   std::vector<ChannelHeader> channels() const;
   /// Of a list of names the bits; names that are not known are left out.

@@ -163,7 +163,7 @@ std::string ask_create(const lc_mesh& mesh, const std::string& options, const Ca
     question["smooth_triangles"] = mesh.smooth_triangles != 0;
     for (const lc_channel& c : std::span(mesh.channels, static_cast<std::size_t>(mesh.channel_count)))
       question["channels"].push_back(
-          {{"components", c.components}, {"rule", kChannelRules[c.rule].first}, {"values", c.value_count}});
+          {{"components", c.components}, {"rule", data::kChannelRules[c.rule]}, {"values", c.value_count}});
   } else {
     question["triangles"] = mesh.triangle_count;
   }
@@ -230,7 +230,7 @@ Capabilities read_capabilities(Source& source) {
   c.sharp = version > 1 && header.has("sharp") ? header.bits("sharp", kSharpKinds) : 0;
   if (header.has("does_not_validate")) c.does_not_validate = header.flag("does_not_validate");
   if (header.has("provenance")) c.no_provenance = header.flag("provenance") ? 0 : 1;
-  if (version > 1 && header.has("channels")) c.channel_rules = header.bits("channels", kChannelRules);
+  if (version > 1 && header.has("channels")) c.channel_rules = header.bits("channels", data::kChannelRules);
   if (version > 1 && header.has("channel_derivatives"))
     c.channel_derivatives = header.flag("channel_derivatives");
   if (version > 1 && header.has("points_anywhere")) c.points_anywhere = header.flag("points_anywhere");

@@ -152,6 +152,11 @@ TEST(Protocol, ReadsTextAndBinaryToTheSameArrays) {
     EXPECT_EQ(std::memcmp(r->out.triangles, corners, sizeof corners), 0);
     EXPECT_EQ(*r->out.triangle_face, face);
   }
+  // Beyond the range of its type a number is zero or infinite.
+  Read wide;
+  read(wide, kText + "1e-50 1e50 -1e50 0 0 1 7 1 2 4\n0 0 0 7\n", Payload::kText);
+  const float beyond[] = {0, INFINITY, -INFINITY};
+  EXPECT_EQ(std::memcmp(wide.out.positions, beyond, sizeof beyond), 0);
   // Any byte less is too few.
   for (std::size_t k = 0; k < bytes.size(); ++k) {
     Read r;
@@ -176,12 +181,16 @@ TEST(Protocol, WithoutProvenanceHasPointsAndTrianglesAlone) {
   }
 }
 
-TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
-  const Capabilities c = capabilities_of(
+Capabilities of_version_2(const std::string& more) {
+  return capabilities_of(
       R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
-      R"("weights": "loop", "boundary": "spline", "points": "refined", "max_depth": 5, "normals": false, )"
-      R"("per_face_depth": false, "exact_lattice": true})"
-      "\n");
+      R"("weights": "loop", "boundary": "spline", "points": "limit", "max_depth": 5, "normals": false, )"
+      R"("per_face_depth": false, "exact_lattice": true)" +
+      more + "}\n");
+}
+
+TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
+  const Capabilities c = of_version_2("");
   EXPECT_EQ(c.values.schemes, LC_DOES_CATMULL_CLARK);
   const float position[] = {1, 2, 3};
   const lc_provenance provenance{7, 1, 2, 4};
@@ -199,17 +208,16 @@ TEST(Protocol, OfVersion2HasTheCornersOfProvenance) {
   }
 }
 
-// A channel goes with the mesh, and comes with the tessellation: of each corner of each triangle its components.
-TEST(Protocol, HandsChannelsOverAndReadsTheirValues) {
-  const Capabilities c = capabilities_of(
-      R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
-      R"("weights": "loop", "boundary": "spline", "points": "limit", "max_depth": 5, "normals": false, )"
-      R"("per_face_depth": false, "exact_lattice": true, "provenance": false, "points_anywhere": true, )"
-      R"("channels": ["none", "all", "unheard"], "device": "a card\u0007"})"
-      "\n");
+// A channel goes with the mesh, and comes with the tessellation: of each corner of each triangle its components, and behind
+// all of these, if they were announced, its derivatives by u, then those by v.
+TEST(Protocol, HandsChannelsOverAndReadsTheirValuesAndDerivatives) {
+  const std::string channels = R"(, "provenance": false, "channels": ["none", "all", "unheard"])";
+  const Capabilities c = of_version_2(
+      channels + R"(, "points_anywhere": true, "device": "a card\u0007", "channel_derivatives": true)");
   EXPECT_EQ(c.values.points_anywhere, 1);
   EXPECT_EQ(c.device, R"(a card\x07)");
   EXPECT_EQ(c.values.channel_rules, 1 << LC_CHANNEL_NONE | 1 << LC_CHANNEL_ALL);
+  EXPECT_EQ(c.values.channel_derivatives, 1);
   const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, values[] = {0.5, 0.25, 1, 0};
   const std::int32_t corners[] = {0, 1, 2}, sizes[] = {3}, indices[] = {0, 1, 1};
   const lc_channel channel{2, LC_CHANNEL_ALL, values, 2, indices};
@@ -227,44 +235,28 @@ TEST(Protocol, HandsChannelsOverAndReadsTheirValues) {
   EXPECT_TRUE(in_words.ends_with("0 1 2\n0.5 0.25\n1 0\n0\n1\n1\n")) << in_words;
 
   const float numbers[] = {1, 2, 3}, uv[] = {0.5, 0.25, 1, 0, 1, 0};
+  const float slopes[] = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
   const std::uint32_t triangle[] = {0, 0, 0};
-  for (const auto& [payload, answer] : {std::pair{Payload::kBinary, bytes_of(numbers, triangle, uv)},
-                                        {Payload::kText, "1 2 3\n0 0 0\n0.5 0.25\n1 0\n1 0\n"}}) {
-    Read r;
-    read(r, kText + answer, payload, c, mesh);
-    ASSERT_NE(r.out.channel_values, nullptr);
-    EXPECT_EQ(std::memcmp(r.out.channel_values, uv, sizeof uv), 0);
-    Read shorter;
-    EXPECT_THROW(read(shorter, kText + answer.substr(0, answer.size() - 3), payload, c, mesh), Error);
-  }
-}
-
-// Derivatives come behind the values if they were announced: at each corner those by u, then those by v.
-TEST(Protocol, ReadsDerivativesOfChannelsThatWereAnnounced) {
-  const Capabilities c = capabilities_of(
-      R"({"limitcheck": 2, "status": "ok", "schemes": ["catmull-clark"], "precision": "float32", )"
-      R"("weights": "loop", "boundary": "spline", "points": "limit", "max_depth": 5, "normals": false, )"
-      R"("per_face_depth": false, "exact_lattice": true, "provenance": false, "channels": ["all"], )"
-      R"("channel_derivatives": true})"
-      "\n");
-  EXPECT_EQ(c.values.channel_derivatives, 1);
-  const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, values[] = {0.5, 0.25};
-  const std::int32_t corners[] = {0, 1, 2}, sizes[] = {3}, indices[] = {0, 1, 1};
-  const lc_channel channel{1, LC_CHANNEL_ALL, values, 2, indices};
-  lc_mesh mesh{positions, 3, corners, 1, sizeof(lc_mesh), LC_SCHEME_CATMULL_CLARK, corners, 3, sizes, 1};
-  mesh.channels = &channel, mesh.channel_count = 1;
-  const float numbers[] = {1, 2, 3}, value[] = {0.5, 1, 2}, derivative[] = {3, 4, 5, 6, 7, 8};
-  const std::uint32_t triangle[] = {0, 0, 0};
-  for (const auto& [payload, answer] :
-       {std::pair{Payload::kBinary, bytes_of(numbers, triangle, value) + bytes_of(derivative)},
-        {Payload::kText, "1 2 3\n0 0 0\n0.5\n1\n2\n3 4\n5 6\n7 8\n"}}) {
-    Read r;
-    read(r, kText + answer, payload, c, mesh);
-    ASSERT_NE(r.out.channel_derivatives, nullptr);
-    EXPECT_EQ(std::memcmp(r.out.channel_derivatives, derivative, sizeof derivative), 0);
-    Read shorter;
-    EXPECT_THROW(read(shorter, kText + answer.substr(0, answer.size() - 3), payload, c, mesh), Error);
-  }
+  const std::string in_text = "1 2 3\n0 0 0\n0.5 0.25\n1 0\n1 0\n",
+                    slopes_in_text = "3 4 5 6\n7 8 9 10\n11 12 13 14\n";
+  for (const bool derivatives : {false, true})
+    for (const auto& [payload, answer] :
+         {std::pair{Payload::kBinary,
+                    bytes_of(numbers, triangle, uv) + (derivatives ? bytes_of(slopes) : "")},
+          {Payload::kText, in_text + (derivatives ? slopes_in_text : "")}}) {
+      const Capabilities announced = derivatives ? c : of_version_2(channels);
+      Read r;
+      read(r, kText + answer, payload, announced, mesh);
+      ASSERT_NE(r.out.channel_values, nullptr);
+      EXPECT_EQ(std::memcmp(r.out.channel_values, uv, sizeof uv), 0);
+      ASSERT_EQ(r.out.channel_derivatives != nullptr, derivatives);
+      if (derivatives) {
+        EXPECT_EQ(std::memcmp(r.out.channel_derivatives, slopes, sizeof slopes), 0);
+      }
+      Read shorter;
+      EXPECT_THROW(read(shorter, kText + answer.substr(0, answer.size() - 3), payload, announced, mesh),
+                   Error);
+    }
 }
 
 // The table of PROTOCOL.md: each question has the keys that are sent, the first answer is one that is read.

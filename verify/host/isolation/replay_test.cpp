@@ -31,6 +31,16 @@ void expect_same(const Tessellation& here, const Tessellation& there, std::strin
   EXPECT_TRUE(same(here.provenance(), there.provenance())) << what;
   EXPECT_TRUE(same(here.triangles(), there.triangles())) << what;
   EXPECT_TRUE(same(here.triangle_face(), there.triangle_face())) << what;
+  ASSERT_EQ(here.channel_count(), there.channel_count()) << what;
+  for (std::size_t c = 0; c < here.channel_count(); ++c)
+    for (std::int64_t n = 0; n < 3 * here.triangle_count(); ++n) {
+      const auto t = n / 3;
+      const auto k = static_cast<int>(n % 3);
+      EXPECT_TRUE(same(here.channel_bits(c, t, k), there.channel_bits(c, t, k))) << what << " " << n;
+      for (int of = 0; of < 2 * here.components(c); ++of)
+        EXPECT_EQ(here.channel_derivative(c, t, k, of / 2, of % 2),
+                  there.channel_derivative(c, t, k, of / 2, of % 2));
+    }
   ASSERT_EQ(here.defects().size(), there.defects().size()) << what;
   for (std::size_t k = 0; k < here.defects().size(); ++k) {
     EXPECT_EQ(here.defects()[k].kind, there.defects()[k].kind) << what;
@@ -72,6 +82,21 @@ TEST(Isolation, ASessionTessellatesAgainAndAgainAndRefusalsPass) {
   EXPECT_THROW(there.tessellate(99), SubjectError);
   expect_same(here.tessellate(1), there.tessellate(1), "after a refusal");
   EXPECT_THROW(Session(remote.subject(), mesh, "no-such=option"), SubjectError);
+}
+
+TEST(Isolation, ChannelsGoWithTheMeshAndTheirValuesAndDerivativesComeBack) {
+  data::ControlMesh mesh = data::octahedron();
+  data::Channel& uv = mesh.channels.emplace_back(data::Channel{"uv"});
+  for (const std::int32_t v : mesh.faces.corners()) {
+    uv.corners.push_back(static_cast<std::int32_t>(uv.corners.size()));  // each face a chart
+    uv.values.insert(uv.values.end(), {mesh.positions[v][0] + v, mesh.positions[v][1] - v});
+  }
+  const RemoteSubject remote(RemoteSubject::Kind::kBuiltIn, "naive", {{}, LIMITCHECK_PROGRAM, ""});
+  Session here(*lc_subject_naive(), mesh), there(remote.subject(), mesh);
+  const Tessellation t = here.tessellate(1);
+  ASSERT_EQ(t.channel_count(), 1U);
+  ASSERT_TRUE(t.has_channel_derivatives());
+  expect_same(t, there.tessellate(1), "naive");
 }
 
 TEST(Isolation, AsManySubjectsAsThereAreSlotsAndNoMore) {

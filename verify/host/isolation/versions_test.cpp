@@ -25,10 +25,9 @@ static_assert(offsetof(lc_capabilities, size) == 32 && sizeof(lc_capabilities) =
 static_assert(offsetof(lc_mesh, size) == 32 && sizeof(lc_mesh) == 136);
 static_assert(offsetof(lc_request, size) == 32 && sizeof(lc_request) == 40);
 static_assert(offsetof(lc_tessellation, size) == 64 && sizeof(lc_tessellation) == 96);
-// What it added to itself stands behind what libraries of it were built with (test_subjects/interface_2.c).
-static_assert(offsetof(lc_capabilities, channel_derivatives) == 60 &&
-              offsetof(lc_capabilities, points_anywhere) == 64);
-static_assert(offsetof(lc_tessellation, channel_derivatives) == 88);
+// What it added to itself since it was released with 0.2.0 stands behind what it had then.
+static_assert(offsetof(lc_capabilities, no_provenance) == 52 && offsetof(lc_mesh, channels) == 120);
+static_assert(offsetof(lc_tessellation, channel_values) == 80);
 
 class Versions : public CommandTest {
  protected:
@@ -75,23 +74,6 @@ TEST_F(Versions, NoneIsAskedForCatmullClarkOrForSharpEdges) {
         }
       }
     }
-}
-
-// Its channels are judged, and derivatives it was never asked for are no fault.
-TEST_F(Versions, ALibraryOfInterface2BeforeDerivativesOfChannelsIsAuditedAsItAlwaysWas) {
-  write("quad.obj",
-        "v 0 0 0\nv 1 0 0\nv 1 1 .5\nv 0 1 0\nvt 0 0\nvt .5 0\nvt .5 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"
-        "t interpolateboundary 1/0/0 1\nt facevaryinginterpolateboundary 1/0/0 1\n");
-  const json report = report_of(library("interface_2") + " quad.obj --depth 0", 0);
-  int channels = 0;
-  for (const json& row : report["results"]) {
-    const std::string check = row["check"];
-    if (!check.starts_with("channel-")) continue;
-    ++channels;
-    EXPECT_EQ(row["status"], check == "channel-derivatives" ? "not-supported" : "held") << row;
-  }
-  EXPECT_EQ(channels, 3);
-  EXPECT_GE(held(report), 8);
 }
 
 }  // namespace

@@ -80,8 +80,7 @@ struct Loaded {
 };
 
 data::Scheme asked_scheme(const Header& header) {
-  return header.choice("scheme", {"loop", "catmull-clark"}) == 0 ? data::Scheme::kLoop
-                                                                 : data::Scheme::kCatmullClark;
+  return header.choice("scheme", protocol::kSchemes) == 0 ? data::Scheme::kLoop : data::Scheme::kCatmullClark;
 }
 
 nlohmann::json capabilities_answer(const lc_subject& subject, const std::string& options,
@@ -109,7 +108,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"exact_lattice", c.exact_lattice != 0},
           {"does_not_validate", c.does_not_validate != 0},
           {"provenance", c.no_provenance == 0},
-          {"channels", protocol::names_of(c.channel_rules, protocol::kChannelRules)},
+          {"channels", protocol::names_of(c.channel_rules, data::kChannelRules)},
           {"channel_derivatives", c.channel_derivatives != 0},
           {"points_anywhere", c.points_anywhere != 0},
           {"options", subject.options != nullptr ? subject.options : ""}};

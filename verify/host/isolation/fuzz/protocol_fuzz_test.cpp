@@ -36,7 +36,7 @@ void read_any(unsigned choice, Source& source) {
     capabilities.payload = choice % 4 == 2 ? Payload::kBinary : Payload::kText;
     capabilities.values.precision = (choice & 4U) != 0 ? LC_FLOAT32 : LC_FLOAT64;
     capabilities.values.normals = (choice & 8U) != 0 ? 1 : 0;
-    read_tessellation(source, capabilities, kMost, request, out);
+    read_tessellation(source, capabilities, kMost, mesh, request, out);
     std::uint64_t total = 0;
     for (const auto& block : memory.blocks()) {
       total += block.size;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 #include "data/error.h"
+#include "data/validate.h"
 
 namespace limitcheck::fast {
 
@@ -19,9 +19,12 @@ namespace {
   throw data::ArgumentError("control mesh: " + what);
 }
 
+// What is wrong with a mesh, now that something is.
 template <int K>
-std::string two_faces(std::int32_t h, std::int32_t g) {
-  return "(faces " + std::to_string(std::min(h, g) / K) + ", " + std::to_string(std::max(h, g) / K) + ")";
+[[noreturn]] void diagnose(const data::ControlMesh& mesh) {
+  for (const auto& finding : data::validate(mesh, K == 3 ? data::Scheme::kLoop : data::Scheme::kCatmullClark))
+    if (finding.fault != data::MeshFault::kIsolatedVertex) refuse(finding.message);
+  refuse("no manifold");
 }
 
 data::Triangles faces_of(const data::ControlMesh& mesh, std::integral_constant<int, 3>) {
@@ -61,7 +64,7 @@ BasicAdjacency<K>::BasicAdjacency(const data::ControlMesh& mesh) {
   outgoing_.assign(mesh.positions.size(), -1);
   read_faces(mesh);
   sort_by_origin();
-  link();
+  link(mesh);
 }
 
 template <int K>
@@ -78,16 +81,7 @@ void BasicAdjacency<K>::read_faces(const data::ControlMesh& mesh) {
     }
     bad |= repeats(t);
   }
-  for (std::size_t f = 0; bad && f < faces.size(); ++f) {
-    const auto& t = faces[f];
-    for (const std::int32_t v : t) {
-      if (static_cast<std::uint32_t>(v) >= vertices) {
-        refuse("face " + std::to_string(f) + " names vertex " + std::to_string(v) + " of " +
-               std::to_string(vertices));
-      }
-    }
-    if (repeats(t)) refuse("face " + std::to_string(f) + " repeats a vertex");
-  }
+  if (bad) diagnose<K>(mesh);
 }
 
 // Counting sort of the half-edges by origin; those of one vertex stay in order. As 4 face + corner, which
@@ -110,7 +104,7 @@ void BasicAdjacency<K>::sort_by_origin() {
 // Chains the corners of each vertex: the next one counter-clockwise is that whose half-edge goes where the
 // last one's face comes from, and the two half-edges there are twins.
 template <int K>
-void BasicAdjacency<K>::link() {
+void BasicAdjacency<K>::link(const data::ControlMesh& mesh) {
   struct FaceCorner {  // of a face: the half-edge into the vertex, the one out of it, the next corner
     std::int32_t in, out, next;
   };
@@ -148,7 +142,7 @@ void BasicAdjacency<K>::link() {
       unreached -= found ? j : 0;
       ends += found ? 0 : 1;
     }
-    if (!good || ends > 1 || (ends == 1 && (unreached < 0 || unreached >= n))) diagnose(v, false);
+    if (!good || ends > 1 || (ends == 1 && (unreached < 0 || unreached >= n))) diagnose<K>(mesh);
     const std::int32_t start = ends == 0 ? 0 : static_cast<std::int32_t>(unreached);
     std::int32_t met = 0, i = start;
     do {
@@ -156,27 +150,10 @@ void BasicAdjacency<K>::link() {
       i = corner[i].next;
     } while (i >= 0 && i != start && met < n);
     const bool closed = ends == 0 && i == start;
-    if (met != n || !(closed ? n >= 3 : i < 0)) diagnose(v, closed && met == n);
+    if (met != n || !(closed ? n >= 3 : i < 0)) diagnose<K>(mesh);
     outgoing_[v] = fan[0];
     max_valence_ = std::max(max_valence_, n + ends);
   }
-}
-
-// What is wrong, now that something is: the edges first, for their faults show at vertices too.
-template <int K>
-void BasicAdjacency<K>::diagnose(std::int32_t v, bool closed) const {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> edges;
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(origin_.size()); ++h)
-    edges[std::minmax({origin(h), target(h)})].push_back(h);
-  for (const auto& [edge, half_edges] : edges) {
-    const std::string name = "edge " + std::to_string(edge.first) + "-" + std::to_string(edge.second);
-    if (half_edges.size() > 2)
-      refuse(name + " has more than two faces " + two_faces<K>(half_edges[0], half_edges[2]));
-    if (half_edges.size() == 2 && origin(half_edges[0]) == origin(half_edges[1]))
-      refuse(name + " runs the same way in two faces " + two_faces<K>(half_edges[0], half_edges[1]));
-  }
-  if (closed) refuse("interior vertex " + std::to_string(v) + " has valence 2");
-  refuse("vertex " + std::to_string(v) + " joins two fans");
 }
 
 template <int K>

@@ -28,7 +28,7 @@ namespace limitcheck::fast {
 template <int K>
 class BasicAdjacency {
  public:
-  /// Throws data::ArgumentError and names the element: a face that has not K corners, index out of range,
+  /// Throws data::ArgumentError with what data::validate says: a face that has not K corners, index out of range,
   /// vertex repeated in a face, edge with more than two faces or with two faces of opposite orientation,
   /// vertex with two fans (bow-tie), interior vertex of valence below 3, more than 2^31 / K faces.
   /// [claims D9, D13] A vertex without faces is allowed: valence 0, outgoing -1. The mesh itself is not kept.
@@ -87,9 +87,8 @@ class BasicAdjacency {
  private:
   void read_faces(const data::ControlMesh& mesh);
   void sort_by_origin();
-  void link();
+  void link(const data::ControlMesh& mesh);
   void split(const std::vector<std::vector<std::int32_t>>& added);
-  [[noreturn]] void diagnose(std::int32_t v, bool closed) const;
 
   std::vector<std::int32_t> origin_;    // per half-edge
   std::vector<std::int32_t> twin_;      // per half-edge

@@ -120,23 +120,23 @@ TEST(Adjacency, RefusesTwoOpenFansWhateverTheOrderOfFaces) {
     do {
       std::vector<std::array<std::int32_t, 3>> triangles(hub.begin(), hub.end());
       triangles.insert(triangles.end(), fans.begin(), fans.end());
-      expect_refused(11, triangles, "vertex 5 joins two fans");
+      expect_refused(11, triangles, "vertex 5 joins 2 fans");
     } while (std::next_permutation(fans.begin(), fans.end()));
   } while (std::next_permutation(hub.begin(), hub.end()));
 }
 
 TEST(Adjacency, RefusesWhatIsNotAnOrientedManifoldAndNamesTheElement) {
-  expect_refused(3, {{0, 1, 3}}, "face 0 names vertex 3 of 3");
-  expect_refused(3, {{0, 1, -1}}, "face 0 names vertex -1 of 3");
-  expect_refused(3, {{0, 1, 1}}, "face 0 repeats a vertex");
-  expect_refused(5, {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}, "edge 0-1 has more than two faces");
-  expect_refused(4, {{0, 1, 2}, {0, 1, 3}}, "edge 0-1 runs the same way in two faces (faces 0, 1)");
-  expect_refused(3, {{0, 1, 2}, {0, 1, 2}}, "runs the same way");
-  expect_refused(5, {{0, 1, 2}, {0, 3, 4}}, "vertex 0 joins two fans");
+  expect_refused(3, {{0, 1, 3}}, "face 0 names vertex 3, the mesh has 3");
+  expect_refused(3, {{0, 1, -1}}, "face 0 names vertex -1, the mesh has 3");
+  expect_refused(3, {{0, 1, 1}}, "face 0 names vertex 1 twice");
+  expect_refused(5, {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}, "edge 0–1 has 3 faces (0, 1, 2)");
+  expect_refused(4, {{0, 1, 2}, {0, 1, 3}}, "faces 0 and 1 both run from 0 to 1");
+  expect_refused(3, {{0, 1, 2}, {0, 1, 2}}, "face 1 has the vertices of face 0");
+  expect_refused(5, {{0, 1, 2}, {0, 3, 4}}, "vertex 0 joins 2 fans");
   expect_refused(3, {{0, 1, 2}, {0, 2, 1}}, "has valence 2");
   // Two tetrahedra that touch in vertex 0 only: two closed fans.
   expect_refused(7, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}},
-                 "vertex 0 joins two fans");
+                 "vertex 0 joins 2 fans");
 }
 
 std::vector<data::ControlMesh> assorted() {

@@ -51,9 +51,4 @@ template CrackPlan plan_cracks(const LoopFaces&, std::span<const std::int32_t>, 
 template CrackPlan plan_cracks(const QuadFaces&, std::span<const std::int32_t>, const CrackOptions&,
                                const PrintedRules&);
 
-CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                      const CrackOptions& options) {
-  return plan_cracks(LoopFaces{&adjacency}, depth, options, PrintedRules{});
-}
-
 }  // namespace limitcheck::fast

@@ -3,10 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
-
-#include "fast/mesh/adjacency.h"
 
 namespace limitcheck::fast {
 
@@ -44,11 +41,5 @@ struct CrackPlan {
   std::vector<Display> display;         // per face
   std::int64_t fans = 0, stitched = 0;
 };
-
-/// After the pairing, when `depth` is final, -1 = culled: a face is repaired if a neighbour is deeper, and
-/// the depth of an edge is the larger of its faces'. A culled neighbour counts as the face's own depth.
-///   throws   data::ArgumentError: not one depth per face
-CrackPlan plan_cracks(const Adjacency& adjacency, std::span<const std::int32_t> depth,
-                      const CrackOptions& options = {});
 
 }  // namespace limitcheck::fast

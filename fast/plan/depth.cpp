@@ -169,12 +169,6 @@ std::vector<Facing> BasicDepthHeuristics<Surface>::facing(const Camera& camera) 
 
 template <class Surface>
 std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, const Camera& camera,
-                                                           double target_pixels) const {
-  return project_sphere(face, camera, camera.focal_pixels(), target_pixels);
-}
-
-template <class Surface>
-std::int32_t BasicDepthHeuristics<Surface>::project_sphere(std::int32_t face, const Camera& camera,
                                                            double focal_pixels, double target_pixels) const {
   const auto& [centroid, radius] = spheres_[face];
   const double distance = std::max(length(camera.eye - centroid) - radius, camera.near);

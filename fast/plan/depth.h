@@ -114,12 +114,6 @@ class BasicDepthHeuristics {
   /// One class per face.
   std::vector<Facing> facing(const Camera& camera) const;
 
-  /// The smallest l in 0 .. max_depth with 2 r f / (distance 2^l) <= target_pixels, max_depth if there is
-  /// none: r is the largest distance of a corner from the face's centroid, f is camera.focal_pixels(), and
-  /// distance goes from the eye to the nearest point of that sphere and is at least camera.near. [decision in
-  /// claims.md E; C25]
-  std::int32_t project_sphere(std::int32_t face, const Camera& camera, double target_pixels) const;
-
   /// The smallest cosine between the limit normal of vertex v and the normals of the facets round it after
   /// l subdivision steps.
   double cone_cosine(std::int32_t v, int l) const;
@@ -136,6 +130,10 @@ class BasicDepthHeuristics {
   bool faces_away(std::int32_t v, const Camera& camera) const;
   std::vector<std::uint8_t> away(const Camera& camera) const;
   Facing facing(std::int32_t face, std::span<const std::uint8_t> away) const;
+  /// The smallest l in 0 .. max_depth with 2 r f / (distance 2^l) <= target_pixels, max_depth if there is
+  /// none: r is the largest distance of a corner from the face's centroid, f is camera.focal_pixels(), and
+  /// distance goes from the eye to the nearest point of that sphere and is at least camera.near. [decision in
+  /// claims.md E; C25]
   std::int32_t project_sphere(std::int32_t face, const Camera& camera, double focal_pixels,
                               double target_pixels) const;
   Facing vertex_facing(std::int32_t v, std::span<const std::uint8_t> away) const;

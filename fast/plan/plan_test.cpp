@@ -69,13 +69,17 @@ TEST(Depth, ProjectSphereHalvesThePixelsUntilTheyFit) {
   RecordProperty("claim", "C25");
   const Fixture f({{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}}});
   Camera camera{.eye = {1, 1, 10}, .target = {1, 1, 0}, .field_of_view = 90, .height = 200};
-  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 57.7), 0);
-  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 57.5), 1);
-  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 28.85), 1);
-  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 28.75), 2);
-  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 1e-9), 5) << "clamped";
+  const auto depth_at = [&](double pixels) {
+    const DepthOptions options{.strategy = Strategy::kProjectSphere, .target_pixels = pixels, .cull = false};
+    return f.heuristics.depths(options, camera)[0];
+  };
+  EXPECT_EQ(depth_at(57.7), 0);
+  EXPECT_EQ(depth_at(57.5), 1);
+  EXPECT_EQ(depth_at(28.85), 1);
+  EXPECT_EQ(depth_at(28.75), 2);
+  EXPECT_EQ(depth_at(1e-9), 5) << "clamped";
   camera.eye = {1, 1, 1e-3};  // inside the sphere: near counts
-  EXPECT_EQ(f.heuristics.project_sphere(0, camera, 2 * std::sqrt(5.) * 100 / camera.near / 4 * 1.001), 2);
+  EXPECT_EQ(depth_at(2 * std::sqrt(5.) * 100 / camera.near / 4 * 1.001), 2);
 }
 
 TEST(Depth, APlaneNeedsNoSubdivisionAndASharperConeNeverLess) {
@@ -138,31 +142,6 @@ TEST(Depth, CullingIsAChoiceOfItsOwn) {
   }
 }
 
-TEST(Depth, TheAngleMayDifferByClass) {
-  const Fixture f(grid_torus(9, 16));
-  DepthOptions options;
-  options.strategy = Strategy::kCurvature;
-  options.cull = false;
-  options.angle_front = options.angle_silhouette = options.angle_back = 60;
-  const auto coarse = f.heuristics.depths(options, {});
-  const auto facing = f.heuristics.facing(Camera{});
-  // Faces whose corners are all of that one class must change with its angle, and no face of another class.
-  const auto changed = [&](double DepthOptions::*angle) {
-    DepthOptions finer = options;
-    finer.*angle = 5;
-    const auto depths = f.heuristics.depths(finer, {});
-    std::set<Facing> classes;
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-      EXPECT_GE(depths[i], coarse[i]);
-      if (depths[i] != coarse[i]) classes.insert(facing[i]);
-    }
-    return classes;
-  };
-  EXPECT_TRUE(changed(&DepthOptions::angle_front) == std::set<Facing>{Facing::kFront});
-  EXPECT_TRUE(changed(&DepthOptions::angle_back) == std::set<Facing>{Facing::kBack});
-  EXPECT_TRUE(changed(&DepthOptions::angle_silhouette).contains(Facing::kSilhouette));
-}
-
 TEST(Depth, ACustomStrategyIsCalledOncePerFaceInOrderAndClamped) {
   const Fixture f(octahedron());
   std::vector<std::int32_t> calls;
@@ -173,12 +152,6 @@ TEST(Depth, ACustomStrategyIsCalledOncePerFaceInOrderAndClamped) {
   const std::vector<std::int32_t> depths = f.heuristics.depths(options, {});
   EXPECT_EQ(calls, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(depths, (std::vector<std::int32_t>{-1, -1, -1, 0, 1, 2, 3, 4}));
-}
-
-TEST(Depth, ACameraInsideAClosedConvexSurfaceSeesOnlyBackFaces) {
-  const Fixture f(octahedron());
-  Camera camera{.eye = {0, 0, .01}, .target = {1, 0, 0}};
-  EXPECT_EQ(f.heuristics.depths({}, camera), std::vector<std::int32_t>(8, kCulled));
 }
 
 TEST(Depth, BadArgumentsAreRefused) {

@@ -30,13 +30,16 @@ struct PrintedRules {
   EdgeDepthRule edge_depth = EdgeDepthRule::kMaximum;
 };
 
-/// As the functions of the same names without rules. `keep`: pairs that are there before the others, each
+/// As pair_faces() without rules. `keep`: pairs that are there before the others, each
 /// of faces of one depth.
 PairingResult pair_faces(const Adjacency& adjacency, std::span<const std::int32_t> depth,
                          const PrintedRules& rules, std::span<const Grid> keep = {});
-/// Of the faces of either scheme. A cut is an edge like others here, so that its sides meet.
+/// After the pairing, when `depth` is final, -1 = culled: a face is repaired if a neighbour is deeper, and
+/// the depth of an edge is the larger of its faces'. A culled neighbour counts as the face's own depth; a cut is an
+/// edge like others, so that its sides meet.
+///   throws   data::ArgumentError: not one depth per face
 template <class Faces>
 CrackPlan plan_cracks(const Faces& faces, std::span<const std::int32_t> depth, const CrackOptions& options,
-                      const PrintedRules& rules);
+                      const PrintedRules& rules = {});
 
 }  // namespace limitcheck::fast

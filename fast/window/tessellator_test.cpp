@@ -10,7 +10,8 @@
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/surgery.h"
 #include "fast/frame/crack_centre.h"
-#include "fast/frame/patch.h"
+#include "fast/plan/faces.h"
+#include "fast/plan/printed_rules.h"
 #include "fast/test_support/exact_weld.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/crack_edge.h"
@@ -52,38 +53,6 @@ TEST(Sec4_Frame, OpensOnlyWhereCulledFacesBegin) {
       EXPECT_EQ(report.repeated, 0);
       EXPECT_EQ(report.degenerate, 0);
     }
-  }
-}
-
-TEST(Sec4_Frame, KeepsItsNormalsAtAnyScaleAndFarFromTheOrigin) {
-  const data::ControlMesh mesh = shaken(grid_torus(4, 5), .15, 13);
-  const std::vector<std::int32_t> depth(mesh.faces.size(), 3);
-  DrawList<float> plain, other;
-  Tessellator<float>(mesh).frame(depth, plain);
-  for (const int exponent : {-60, -20, 20, 60}) {
-    data::ControlMesh scaled = mesh;
-    for (auto& p : scaled.positions)
-      for (double& x : p) x = std::ldexp(x, exponent);
-    Tessellator<float>(scaled).frame(depth, other);
-    for (std::size_t i = 0; i < plain.vertices.size(); ++i) {
-      ASSERT_EQ(plain.vertices[i].normal, other.vertices[i].normal) << exponent;
-      ASSERT_EQ(std::ldexp(plain.vertices[i].position.x, exponent), other.vertices[i].position.x) << exponent;
-    }
-  }
-  // moved by 1024, the control points lose digits when they are rounded; nothing more is lost afterwards
-  data::ControlMesh moved = mesh, rounded = mesh;
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      moved.positions[i][k] = static_cast<float>(mesh.positions[i][k] + 1024);
-      rounded.positions[i][k] = moved.positions[i][k] - 1024;
-    }
-  }
-  Tessellator<float>(moved).frame(depth, other);
-  Tessellator<float>(rounded).frame(depth, plain);
-  for (std::size_t i = 0; i < plain.vertices.size(); ++i) {
-    const auto d = plain.vertices[i].normal - other.vertices[i].normal;
-    ASSERT_LE(dot(d, d), 1e-9f);
-    ASSERT_NEAR(plain.vertices[i].position.x + 1024, other.vertices[i].position.x, 1e-4);
   }
 }
 
@@ -182,7 +151,7 @@ TEST(Sec5_Plan, AFaceIsAFanIfAnEdgeIsDeeperThanItself) {
   std::vector<std::int32_t> depth(32, 2);
   depth[5] = 4;
   depth[6] = -1;
-  const CrackPlan plan = plan_cracks(adjacency, depth);
+  const CrackPlan plan = plan_cracks(LoopFaces{&adjacency}, depth, {});
   EXPECT_EQ(plan.fans, 3 - (adjacency.neighbour(5, 0) == 6 || adjacency.neighbour(5, 1) == 6 ||
                                     adjacency.neighbour(5, 2) == 6
                                 ? 1
@@ -196,7 +165,7 @@ TEST(Sec5_Plan, AFaceIsAFanIfAnEdgeIsDeeperThanItself) {
       EXPECT_EQ(got, own < 0 ? -1 : std::max(own, other));
     }
   }
-  EXPECT_THROW(plan_cracks(adjacency, std::vector<std::int32_t>(3)), data::ArgumentError);
+  EXPECT_THROW(plan_cracks(LoopFaces{&adjacency}, std::vector<std::int32_t>(3), {}), data::ArgumentError);
 }
 
 TEST(Sec5_Plan, AFaceIsStitchedFromDepthTwoOn) {
@@ -205,29 +174,9 @@ TEST(Sec5_Plan, AFaceIsStitchedFromDepthTwoOn) {
   for (const std::int32_t own : {0, 1, 2, 3}) {
     std::vector<std::int32_t> depth(32, own);
     depth[5] = own + 2;
-    const CrackPlan plan = plan_cracks(adjacency, depth, options);
+    const CrackPlan plan = plan_cracks(LoopFaces{&adjacency}, depth, options);
     EXPECT_EQ(plan.stitched, own >= 2 ? 3 : 0) << own;
     EXPECT_EQ(plan.fans, own >= 2 ? 0 : 3) << own;
-  }
-}
-
-TEST(Sec5_Stitch, MakesTheRingOfTrianglesItAnnounces) {
-  for (int depth = 2; depth <= 6; ++depth) {
-    for (int edge = depth; edge <= 8; ++edge) {
-      const int k = 1 << depth;
-      std::int64_t triangles = 0, outer = 0, inner = 0;
-      stitch_rows(k, edge, 3, [&](StitchPoint a, StitchPoint b, StitchPoint c) {
-        ++triangles;
-        EXPECT_FALSE(a.inner);
-        EXPECT_TRUE(c.inner);
-        EXPECT_EQ(a.t, outer);
-        EXPECT_EQ(c.t, inner);
-        EXPECT_EQ(b.t, b.inner ? ++inner : ++outer);
-      });
-      EXPECT_EQ(outer, 1 << edge);
-      EXPECT_EQ(inner, k - 3);
-      EXPECT_EQ(triangles, (std::int64_t{1} << edge) + k - 3);
-    }
   }
 }
 
@@ -258,26 +207,6 @@ void expect_the_same_by_threads(const data::ControlMesh& mesh, TessellatorOption
 TEST(Sec5_Frame, DoesNotDependOnTheNumberOfThreads) {
   expect_the_same_by_threads(shaken(grid_torus(20, 30), .05, 3), {});
   expect_the_same_by_threads(data::mixed_mesh(3), quads(Repair::kStitch));
-}
-
-TEST(Sec4_Sinks, OnTheFlyDeliversTheSameAsTheWholeList) {
-  Tessellator<float> triangles(grid_torus(32, 40), {.provenance = true});
-  expect_a_sink_gets_the_whole_list(triangles, 4);
-  Tessellator<float> polygons(data::mixed_pawn(40), quads(Repair::kStitch));
-  expect_a_sink_gets_the_whole_list(polygons, 6);
-}
-
-TEST(Sec4_Frame, RefusesWhatItCannotDo) {
-  Tessellator<float> tessellator(octahedron());
-  DrawList<float> out;
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(7, 1), out), data::ArgumentError);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(8, 40), out), data::ArgumentError);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(8, -2), out), data::ArgumentError);
-  EXPECT_THROW(Tessellator<float>(data::ControlMesh{}), data::ArgumentError);
-  const FrameStats nothing = tessellator.frame(std::vector<std::int32_t>(8, -1), out);
-  EXPECT_EQ(nothing.culled, 8);
-  EXPECT_TRUE(out.vertices.empty());
-  EXPECT_TRUE(out.draws.empty());
 }
 
 TEST(QuadFrame, CullsAndCountsFaces) {

@@ -71,26 +71,6 @@ TEST(Sec31_LimitMasks, AreLeftEigenvectorsOfTheSubdivisionStep) {
   }
 }
 
-TEST(Sec31_LimitMasks, AreLeftEigenvectorsAtBoundaryVerticesOfAnyValence) {
-  RecordProperty("claim", "D1 D2");
-  for (int faces = 1; faces <= 50; ++faces) {
-    std::vector<V> ring = uneven_ring(faces + 1);
-    const V centre{.1, -.2, .3};
-    const auto before = limit_of(centre, ring, true);
-    const auto last = static_cast<std::size_t>(faces);
-    std::vector<V> finer{midpoint(centre, ring[0])};
-    for (std::size_t i = 1; i < last; ++i)
-      finer.push_back(edge_point(centre, ring[i], ring[i - 1], ring[i + 1]));
-    finer.push_back(midpoint(centre, ring[last]));
-    const auto after = limit_of(curve_vertex(centre, ring[0], ring[last]), finer, true);
-    EXPECT_LE(size(after.position - before.position), 1e-14) << faces;
-    EXPECT_LE(size(after.du - .5 * before.du), 1e-14) << faces;
-    // One face: -2 v + r_0 + r_1 belongs to 1/4. Else 3/8 + cos(pi / K) / 4.
-    const double lambda = faces == 1 ? .25 : .375 + .25 * std::cos(std::numbers::pi / faces);
-    EXPECT_LE(size(after.dv - lambda * before.dv), 1e-13 * faces) << faces;
-  }
-}
-
 TEST(Sec31_LimitMasks, OfTheRegularCasesAreTheGeneralOnes) {
   const std::vector<V> r = uneven_ring(6);
   const V centre{.1, -.2, .3};

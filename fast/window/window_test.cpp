@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The sliding windows of both schemes.
+// The sliding window of quads; that of triangles is compared with the reference by frames and in verify/proof.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,104 +15,14 @@
 #include "data/numeral.h"
 #include "data/splitmix64.h"
 #include "data/test_support/known_answers.h"
-#include "fast/test_support/refined_limits.h"
+#include "fast/rules/prepared_mesh.h"
+#include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/quad_rows.h"
 #include "fast/window/quad_window.h"
-#include "fast/window/sliding_window.h"
 
 namespace limitcheck::fast {
 namespace {
-
-/// (row, column) of the window as a point of the face left of half-edge h0 (upper left) or of its twin h1.
-LatticePoint lattice_of(std::int32_t h0, std::int32_t h1, int k, int row, int column, bool upper) {
-  std::uint32_t weight[3];
-  const int edge = upper ? h0 % 3 : h1 % 3;
-  if (upper) {  // h0 runs corner0 -> corner2, then corner3
-    weight[edge] = row;
-    weight[(edge + 1) % 3] = column;
-    weight[(edge + 2) % 3] = k - row - column;
-  } else {  // h1 runs corner2 -> corner0, then corner1
-    weight[edge] = k - row;
-    weight[(edge + 1) % 3] = k - column;
-    weight[(edge + 2) % 3] = row + column - k;
-  }
-  return {(upper ? h0 : h1) / 3, weight[1], weight[2], static_cast<std::uint32_t>(k)};
-}
-
-struct Worst {
-  long double position = 0, normal = 0;
-};
-
-template <class N>
-Worst compare(const data::ControlMesh& mesh, int depth) {
-  const Adjacency adjacency(mesh);
-  const PreparedMesh<N> prepared(adjacency, positions_of<N>(mesh));
-  SlidingWindow<N> window(depth, adjacency.max_valence());
-  const RefinedLevels refined = RefinedLevels::loop(mesh, depth);
-  const int k = 1 << depth;
-  Worst worst;
-  for (std::int32_t h = 0; h < 3 * adjacency.face_count(); ++h) {
-    const std::int32_t twin = adjacency.twin(h);
-    if (twin < 0) continue;
-    int expected_row = 0;
-    window.run(prepared, h, depth, [&](int row, const SurfaceVertex<N>* strip) {
-      EXPECT_EQ(row, expected_row++);
-      for (int i = 0; i <= k; ++i) {
-        for (int below = 0; below < 2; ++below) {
-          const int r = row + below;
-          const bool upper = r + i <= k;
-          const auto expected = refined.limit(lattice_of(h, twin, k, r, i, upper));
-          const auto& got = strip[2 * i + below];
-          const Point p{got.position.x, got.position.y, got.position.z};
-          const Point n{got.normal.x, got.normal.y, got.normal.z};
-          worst.position = std::max(worst.position, norm(p - expected.position));
-          worst.normal = std::max(worst.normal, norm(n - expected.normal));
-        }
-      }
-    });
-    EXPECT_EQ(expected_row, k);
-  }
-  return worst;
-}
-
-struct Shape {
-  const char* name;
-  data::ControlMesh mesh;
-};
-
-std::vector<Shape> shapes() {
-  return {{"tetrahedron", tetrahedron()},
-          {"octahedron", octahedron()},
-          {"bipyramid 3", bipyramid(3)},
-          {"bipyramid 7", bipyramid(7)},
-          {"torus", grid_torus(3, 4)},
-          {"bipyramid 60", bipyramid(60)},
-          {"sheet", grid_sheet(2, 3)},
-          {"wheel 3", wheel(3, .5)},
-          {"wheel 5", wheel(5, .3)},
-          {"fan 2", fan(2)},
-          {"fan 3", fan(3)},
-          {"fan 5", fan(5)}};
-}
-
-TEST(Sec4_SlidingWindow, EqualsTheMeshRefinedAsAWhole) {
-  for (const auto& [name, mesh] : shapes()) {
-    for (int depth = 0; depth <= (mesh.faces.size() > 50 ? 2 : 4); ++depth) {
-      const Worst worst = compare<double>(mesh, depth);
-      EXPECT_LE(worst.position, 1e-14L) << name << " depth " << depth;
-      EXPECT_LE(worst.normal, 1e-12L) << name << " depth " << depth;
-    }
-  }
-}
-
-template <class N>
-std::vector<Vec3<N>> rounded(const QuadMesh& mesh) {
-  std::vector<Vec3<N>> out;
-  for (const auto& p : mesh.positions)
-    out.push_back({static_cast<N>(p[0]), static_cast<N>(p[1]), static_cast<N>(p[2])});
-  return out;
-}
 
 // All points of a quad: [j][i] at (u, v) = (i, j) / 2^depth.
 template <class N, bool Carry = true, class Mesh>
@@ -159,7 +68,7 @@ TEST(QuadWindow, GivesTheKnownAnswers) {
     if (answer.scheme != "catmull-clark") continue;
     const auto mesh = mesh_of(answer);
     const QuadMesh quads(mesh);
-    const PreparedQuads<double> prepared(quads, rounded<double>(quads));
+    const PreparedQuads<double> prepared(quads, positions_of<double>(quads));
     double size = 0;
     for (const auto& p : mesh.positions)
       for (const double x : p) size = std::max(size, std::abs(x));
@@ -210,7 +119,7 @@ TEST(QuadWindow, ComputesEveryPointOnce) {
   RecordProperty("claim", "C21");
   const auto mesh = data::quad_torus(5, 6);
   const QuadMesh quads(mesh);
-  const PreparedQuads<float> prepared(quads, rounded<float>(quads));
+  const PreparedQuads<float> prepared(quads, positions_of<float>(quads));
   for (int depth = 0; depth <= 6; ++depth) {
     WindowCounts carried, printed;
     const auto a = points_of<float>(prepared, 7, depth, &carried);
@@ -240,7 +149,7 @@ TEST(QuadWindow, CarriesRowsAtSemiSharpSides) {
     data::ControlMesh mesh = data::with_random_sharpness(data::mixed_mesh(seed), seed);
     mesh.sharpness.creasing = data::Creasing::kChaikin;
     const QuadMesh quads(mesh);
-    const PreparedQuads<float> prepared(quads, rounded<float>(quads));
+    const PreparedQuads<float> prepared(quads, positions_of<float>(quads));
     for (std::int32_t q = 0; q < std::min(80, quads.adjacency.face_count()); ++q)
       ASSERT_EQ((points_of<float>(prepared, q, 4)), (points_of<float, false>(prepared, q, 4)))
           << "quad " << q;
@@ -259,64 +168,31 @@ data::ControlMesh turned(const data::ControlMesh& mesh, std::uint64_t seed) {
   return out;
 }
 
-struct Shared {
-  std::map<std::array<std::int32_t, 3>, std::vector<std::uint64_t>> first;
-  std::int64_t compared = 0, different = 0;
-
-  // With normals only where the sides are not cut apart: cut vertices have names of their own.
-  template <class N>
-  void add(std::int32_t a, std::int32_t b, std::int32_t along, std::int32_t size, const SurfaceVertex<N>& v,
-           bool with_normal) {
-    if (along == 0) b = a;
-    if (along == size) a = b, along = 0;
-    if (a > b) std::swap(a, b), along = size - along;
-    if (a == b) along = 0;
-    std::vector<std::uint64_t> bits;
-    for (const N x : {v.position.x, v.position.y, v.position.z, with_normal ? v.normal.x : N(0),
-                      with_normal ? v.normal.y : N(0), with_normal ? v.normal.z : N(0)}) {
-      std::uint64_t b64 = 0;
-      std::memcpy(&b64, &x, sizeof x);
-      bits.push_back(b64);
-    }
-    const auto [at, fresh] = first.try_emplace({a, b, along}, bits);
-    if (fresh) return;
-    ++compared;
-    different += at->second != bits ? 1 : 0;
-  }
-};
-
-// Points of all sides of all quads, from windows and from strips along the sides.
-template <class N>
-void compare_sides(const data::ControlMesh& mesh, int depth, std::int64_t& compared) {
+// Points of all sides of all quads, from windows and from strips along the sides. Cut vertices have names of their own.
+void compare_sides(const data::ControlMesh& mesh, int depth, row_stream::SharedPoints& shared) {
   const QuadMesh quads(mesh);
-  const PreparedQuads<N> prepared(quads, rounded<N>(quads));
+  const QuadAdjacency& adjacency = quads.adjacency;
+  const PreparedQuads<float> prepared(quads, positions_of<float>(quads));
   const int k = 1 << depth;
-  QuadEdge<N> edge(depth, quads.adjacency.max_valence());
-  std::vector<SurfaceVertex<N>> along(k + 1);
-  Shared with_normals, positions;
-  for (std::int32_t q = 0; q < quads.adjacency.face_count(); ++q) {
-    const auto points = points_of<N>(prepared, q, depth);
-    for (std::int32_t side = 0; side < 4; ++side) {
-      const std::int32_t h = 4 * q + side, a = quads.adjacency.origin(h), b = quads.adjacency.target(h);
-      edge.evaluate(prepared, h, depth, along.data());
-      const auto uncut = [&](std::int32_t v) { return quads.uncut.empty() ? v : quads.uncut[v]; };
-      for (int t = 0; t <= k; ++t) {
-        const int i = side == 0 ? t : side == 1 ? k : side == 2 ? k - t : 0;
-        const int j = side == 0 ? 0 : side == 1 ? t : side == 2 ? k : k - t;
-        for (const auto& v : {points[j][i], along[t]}) {
-          // A dart's cut has the same ends on both sides: its normals are compared per quad only.
-          const bool slit = quads.adjacency.twin(h) < 0 && !quads.cut_twin.empty() && quads.cut_twin[h] >= 0;
-          if (!slit || t == 0 || t == k) with_normals.add(a, b, t, k, v, true);
-          positions.add(uncut(a), uncut(b), t, k, v, false);
-        }
-        ASSERT_EQ(std::memcmp(&points[j][i], &along[t], sizeof along[t]), 0)
-            << "quad " << q << " side " << side << " point " << t;
-      }
+  QuadEdge<float> edge(depth, adjacency.max_valence());
+  std::vector<SurfaceVertex<float>> along(k + 1);
+  data::ControlMesh cut{quads.positions, {}};
+  for (std::int32_t q = 0; q < adjacency.face_count(); ++q)
+    cut.faces.push_back(
+        {adjacency.corner(q, 0), adjacency.corner(q, 1), adjacency.corner(q, 2), adjacency.corner(q, 3)});
+  std::vector<std::vector<SurfaceVertex<float>>> points;
+  for (std::int32_t h = 0; h < 4 * adjacency.face_count(); ++h) {
+    if (h % 4 == 0) points = points_of<float>(prepared, h / 4, depth);
+    edge.evaluate(prepared, h, depth, along.data());
+    // A dart's cut has the same ends on both sides: its normals are compared per quad only.
+    const bool slit = adjacency.twin(h) < 0 && !quads.cut_twin.empty() && quads.cut_twin[h] >= 0;
+    for (int t = 0; t <= k; ++t) {
+      const int i[] = {t, k, k - t, 0}, j[] = {0, t, k, k - t};
+      const SurfaceVertex<float>& v = points[j[h % 4]][i[h % 4]];
+      ASSERT_EQ(std::memcmp(&v, &along[t], sizeof v), 0) << "half-edge " << h << " point " << t;
+      if (!slit || t == 0 || t == k) shared.add(cut, h / 4, i[h % 4], j[h % 4], k, v, {});
     }
   }
-  EXPECT_EQ(with_normals.different, 0) << "of " << with_normals.compared;
-  EXPECT_EQ(positions.different, 0) << "of " << positions.compared;
-  compared += positions.compared;
 }
 
 TEST(QuadWindow, SharedPointsHaveTheSameBits) {
@@ -337,9 +213,10 @@ TEST(QuadWindow, SharedPointsHaveTheSameBits) {
     for (const int depth : {1, 2, 4}) {
       SCOPED_TRACE("mesh " + std::to_string(m) + " depth " + std::to_string(depth));
       if (depth == 4 && meshes[m].faces.size() > 60) continue;
-      const data::ControlMesh mesh = turned(shaken(meshes[m], .2, m), m);
-      compare_sides<float>(mesh, depth, compared);
-      if (depth == 2) compare_sides<double>(mesh, depth, compared);
+      row_stream::SharedPoints shared;
+      compare_sides(turned(shaken(meshes[m], .2, m), m), depth, shared);
+      EXPECT_EQ(shared.different(), 0) << "of " << shared.compared();
+      compared += shared.compared();
     }
   }
   EXPECT_GT(compared, 50000);

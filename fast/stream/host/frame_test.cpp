@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -151,6 +152,12 @@ struct Expected {
   int judged = 0;
 };
 
+template <class Real>
+struct PatchPoints {
+  std::span<const SurfaceVertex<Real>> vertices;
+  std::span<const LatticePoint> provenance;
+};
+
 template <class Real, class Tessellator>
 void expect_the_surface(Tessellator&& engine, Expected& expected, double bound, const std::string& what) {
   const Shape& shape = expected.shape;
@@ -186,6 +193,10 @@ void expect_the_surface(Tessellator&& engine, Expected& expected, double bound, 
     if (seed >= 4) continue;
     expected.judged += expect_on_the_limit(expected.limits, list, bound, what, normals);
     expected.judged += expect_on_the_limit(expected.limits, mesh, bound, what, normals);
+    PatchMesh<Real> patches;
+    engine.frame(depth, patches);
+    const PatchPoints<Real> points{patches.vertices(), patches.provenance()};
+    expected.judged += expect_on_the_limit(expected.limits, points, bound, what, normals);
   }
 }
 
@@ -220,46 +231,12 @@ TEST(Frame, OfPolygonsHasNoCracksAndLiesWhereItsProvenanceSays) {
   EXPECT_GT(expect_all_engines(polygons(), kQuads, 1e-13), 60000);
 }
 
-// The checks above can fail: without repair the same depths leave cracks, and without its tags a mesh is elsewhere.
+// The checks above can fail: without repair the same depths leave cracks.
 TEST(Frame, HasCracksIfNobodyRepairsThem) {
   Tessellator<float> tessellator(data::quad_cube(), options_of(kQuads, Repair::kNone));
   DrawList<float> list;
   tessellator.frame(std::vector<std::int32_t>{1, 2, 3, 1, 2, 3}, list);
   EXPECT_GT(weld(triangles_of(list), true).open, 0);
-}
-
-TEST(SharpFrame, WithoutTagsLiesElsewhere) {
-  for (const Shape& shape : sharp_triangles()) {
-    data::ControlMesh smooth = shape.mesh;
-    smooth.sharpness = {};
-    IndexedMesh<double> a, b;
-    const std::vector<std::int32_t> depth(shape.mesh.faces.size(), 2);
-    Tessellator<double>(shape.mesh).frame(depth, a);
-    Tessellator<double>(smooth).frame(depth, b);
-    double farthest = 0;
-    for (const auto& p : a.vertices) {
-      double nearest = 9;
-      for (const auto& q : b.vertices) {
-        const auto d = p.position - q.position;
-        nearest = std::min(nearest, dot(d, d));
-      }
-      farthest = std::max(farthest, nearest);
-    }
-    EXPECT_GT(farthest, 1e-6) << shape.name;
-  }
-}
-
-TEST(SharpFrame, FollowsPointsThatMove) {
-  for (Shape& shape : sharp_triangles()) {
-    Tessellator<double> engine(shape.mesh);
-    const std::vector<std::int32_t> depth(shape.mesh.faces.size(), 2);
-    for (auto& p : shape.mesh.positions) p[0] *= 2, p[2] += 1;
-    engine.move_points(shape.mesh.positions);
-    IndexedMesh<double> a, b;
-    engine.frame(depth, a);
-    Tessellator<double>(shape.mesh).frame(depth, b);
-    EXPECT_EQ(a.vertices, b.vertices) << shape.name;
-  }
 }
 
 TEST(SharpFrame, DepthsFollowTheView) {
@@ -275,6 +252,58 @@ TEST(SharpFrame, RefusesWhatItDoesNotDo) {
   semi.sharpness.edges.push_back({semi.faces[0][0], semi.faces[0][1], 2.5F});
   EXPECT_THROW(Tessellator<float>(semi, {}), data::ArgumentError);
   EXPECT_THROW(row_stream::StreamTessellator(semi, {}), data::ArgumentError);
+}
+
+template <class Engine>
+struct Engines : ::testing::Test {};
+using Both = ::testing::Types<Tessellator<float>, row_stream::StreamTessellator>;
+TYPED_TEST_SUITE(Engines, Both);
+
+// A mesh times 2^k, k even far out: the same surface times 2^k, the same normals, to the last bit.
+TYPED_TEST(Engines, ScaleByPowersOfTwoExactly) {
+  const auto mesh = shaken(bipyramid(7), .2, 9);
+  const std::vector<std::int32_t> depth(mesh.faces.size(), 4);
+  DrawList<float> expected, out;
+  TypeParam(mesh).frame(depth, expected);
+  for (const int exponent : {-60, -20, 20, 60}) {
+    auto scaled = mesh;
+    for (auto& p : scaled.positions)
+      for (double& x : p) x = std::ldexp(x, exponent);
+    TypeParam(scaled).frame(depth, out);
+    for (std::size_t v = 0; v < out.vertices.size(); ++v) {
+      const auto &a = out.vertices[v], &b = expected.vertices[v];
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(a.position[c], std::ldexp(b.position[c], exponent));
+      ASSERT_EQ(a.normal, b.normal);
+    }
+  }
+}
+
+TYPED_TEST(Engines, DeliverTheSameToASinkAsInMemory) {
+  for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+    TypeParam triangles(grid_torus(32, 40), options_of(kLoop, repair));
+    expect_a_sink_gets_the_whole_list(triangles);
+    TypeParam quads(data::quad_torus(50, 50), options_of(kQuads, repair));
+    expect_a_sink_gets_the_whole_list(quads);
+  }
+  TypeParam polygons(data::mixed_pawn(40), options_of(kQuads, Repair::kStitch));
+  expect_a_sink_gets_the_whole_list(polygons, 6);
+}
+
+TYPED_TEST(Engines, RefuseWhatTheyCannotDo) {
+  EXPECT_THROW(TypeParam{data::ControlMesh{}}, data::ArgumentError);
+  auto mesh = octahedron();
+  TypeParam engine(mesh);
+  DrawList<float> out;
+  const auto frame = [&](std::size_t faces, std::int32_t depth) {
+    return engine.frame(std::vector<std::int32_t>(faces, depth), out);
+  };
+  EXPECT_THROW(frame(7, 1), data::ArgumentError);
+  EXPECT_THROW(frame(8, 11), data::ArgumentError);
+  EXPECT_THROW(frame(8, -2), data::ArgumentError);
+  EXPECT_EQ(frame(8, -1).culled, 8);
+  EXPECT_TRUE(out.vertices.empty() && out.draws.empty());
+  mesh.positions[0][0] = std::nan("");
+  EXPECT_THROW(TypeParam{mesh}, data::ArgumentError);
 }
 
 }  // namespace

@@ -8,9 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
-#include <numeric>
-#include <tuple>
 #include <vector>
 
 #include "data/error.h"
@@ -51,45 +48,6 @@ TEST(PatchMesh, HasTheTrianglesOfADrawListToTheBit) {
         expect_the_triangles_of_a_draw_list(window, model.mesh.faces.size(), with);
       }
     }
-  }
-}
-
-TEST(PatchMesh, KnowsWhereEveryPointLies) {
-  for (const Model& model : models()) {
-    TessellatorOptions options = options_of(model, Repair::kStitch);
-    options.provenance = true;
-    StreamTessellator engine(model.mesh, options);
-    data::SplitMix64 random(5);
-    const auto depth = random_depths(model.mesh.faces.size(), 0, 4, random);
-    DrawList<float> list;
-    PatchMesh<float> patches;
-    engine.frame(depth, list), engine.frame(depth, patches);
-    ASSERT_EQ(patches.provenance().size(), patches.vertices().size());
-    using Place =
-        std::tuple<std::int32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::int32_t, PointBits>;
-    const auto place = [](const LatticePoint& at, const SurfaceVertex<float>& v) {
-      PointBits bits;
-      std::memcpy(bits.data(), &v, sizeof bits);
-      // A corner between edges of two depths has two names in a draw list.
-      const std::uint32_t d = std::gcd(std::gcd(at.i, at.j), at.denominator);
-      return Place{at.face, at.i / d, at.j / d, at.denominator / d, at.corner, bits};
-    };
-    std::vector<Place> a, b;
-    for (std::size_t v = 0; v < list.vertices.size(); ++v)
-      a.push_back(place(list.provenance[v], list.vertices[v]));
-    for (const PatchDraw& draw : patches.draws()) {
-      for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i) {
-        const auto v = static_cast<std::size_t>(draw.base_vertex) + patches.indices()[i];
-        b.push_back(place(patches.provenance()[v], patches.vertices()[v]));
-      }
-    }
-    for (auto* places : {&a, &b}) {
-      std::sort(places->begin(), places->end());
-      places->erase(std::unique(places->begin(), places->end()), places->end());
-    }
-    std::vector<Place> only;
-    std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
-    EXPECT_EQ(only.size(), 0u) << model.name << " of " << a.size();
   }
 }
 

@@ -4,19 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "data/bounding_box.h"
-#include "data/error.h"
 #include "data/generators/polygon_meshes.h"
 #include "data/generators/sharp_meshes.h"
-#include "fast/test_support/exact_weld.h"
-#include "fast/test_support/shared_points.h"
 #include "fast/test_support/test_meshes.h"
 #include "fast/window/tessellator.h"
 
@@ -31,39 +26,6 @@ TessellatorOptions options_of(data::Scheme scheme, Repair repair) {
   return options;
 }
 constexpr auto kLoop = data::Scheme::kLoop, kQuads = data::Scheme::kCatmullClark;
-
-std::vector<data::ControlMesh> meshes() {
-  return {shaken(tetrahedron(), .2, 1),    shaken(grid_torus(4, 5), .2, 2), shaken(bipyramid(9), .2, 3),
-          shaken(grid_sheet(3, 4), .1, 4), shaken(fan(5), .05, 5),          single_triangle()};
-}
-
-// The points of a frame as sets of bits per place on a control edge or vertex: all faces must agree, also
-// where their depths differ, and with the other sink.
-TEST(StreamFrame, SharesItsBorderPointsBitForBitAtRandomDepths) {
-  std::int64_t compared = 0;
-  for (const auto& mesh : meshes()) {
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-        StreamTessellator tessellator(mesh, options_of(kLoop, repair));
-        DrawList<float> list;
-        tessellator.frame(random_depths(mesh.faces.size(), -1, 4, seed), list);
-        // One table for all depths would be wrong: a point at two depths may differ in bits. Edges have one
-        // depth.
-        std::map<std::uint32_t, SharedPoints> shared;
-        for (std::size_t v = 0; v < list.vertices.size(); ++v) {
-          const LatticePoint& at = list.provenance[v];
-          if (at.denominator == 3) continue;
-          shared[at.denominator].add(mesh, at, list.vertices[v], {});
-        }
-        for (const auto& [denominator, points] : shared) {
-          EXPECT_EQ(points.different(), 0) << "seed " << seed << " 1/" << denominator;
-          compared += points.compared();
-        }
-      }
-    }
-  }
-  RecordProperty("compared", std::to_string(compared));
-}
 
 TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
   auto pawn = data::pawn(6);
@@ -85,87 +47,6 @@ TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
         EXPECT_EQ(std::memcmp(out.vertices.data(), expected.vertices.data(), 24 * out.vertices.size()), 0)
             << kernel.name << " " << threads;
       }
-    }
-  }
-}
-
-// What a thread needs does not grow with the mesh, and stays within a second-level cache: the kernel's rows,
-// two rows of output, and the border points of the faces that a batch repairs.
-TEST(StreamFrame, NeedsAQuarterOfAMegabytePerThreadAtDepthFive) {
-  for (const auto scheme : {kLoop, kQuads}) {
-    std::size_t most = 0;
-    for (const int size : {5, 20}) {
-      const auto mesh =
-          scheme == kLoop ? shaken(grid_torus(size, size), .1, 7) : data::quad_torus(size, size);
-      for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-        if (scheme == kQuads && repair == Repair::kStitch) continue;  // keeps whole faces
-        StreamTessellator tessellator(mesh, options_of(scheme, repair));
-        IndexedMesh<float> out;
-        tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 5), out);
-        most = std::max(most, tessellator.worker_bytes());
-        tessellator.frame(random_depths(mesh.faces.size(), -1, 5, 3), out);
-        most = std::max(most, tessellator.worker_bytes());
-      }
-    }
-    EXPECT_LE(most, scheme == kLoop ? 256'000u : 256u << 10);
-    RecordProperty(scheme == kLoop ? "bytes" : "bytes_of_quads", std::to_string(most));
-  }
-}
-
-// A mesh times 2^k, k even far out: the same surface times 2^k, the same normals, to the last bit.
-TEST(StreamFrame, ScalesByPowersOfTwoExactly) {
-  const auto mesh = shaken(bipyramid(7), .2, 9);
-  const std::vector<std::int32_t> depth(mesh.faces.size(), 4);
-  DrawList<float> expected;
-  StreamTessellator(mesh).frame(depth, expected);
-  for (const int exponent : {-60, -20, 20, 60}) {
-    auto scaled = mesh;
-    for (auto& p : scaled.positions)
-      for (double& x : p) x = std::ldexp(x, exponent);
-    DrawList<float> out;
-    StreamTessellator(scaled).frame(depth, out);
-    for (std::size_t v = 0; v < out.vertices.size(); ++v) {
-      const auto &a = out.vertices[v], &b = expected.vertices[v];
-      for (int c = 0; c < 3; ++c) ASSERT_EQ(a.position[c], std::ldexp(b.position[c], exponent));
-      ASSERT_EQ(a.normal, b.normal);
-    }
-  }
-}
-
-// Shifted by a thousand times its size (exactly: the coordinates are rounded to 2^-12 first), the mesh loses
-// what its own float coordinates lose, and no more: half an ulp of the shift in position, the normals not at
-// all.
-TEST(StreamFrame, StandsAShiftOfAThousandTimesItsSize) {
-  auto mesh = shaken(bipyramid(7), .2, 9);
-  for (auto& p : mesh.positions)
-    for (double& x : p) x = std::round(x * 4096) / 4096;
-  auto shifted = mesh;
-  for (auto& p : shifted.positions) p = {p[0] + 2000, p[1] - 2000, p[2] + 1000};
-  const std::vector<std::int32_t> depth(mesh.faces.size(), 4);
-  DrawList<float> expected, out;
-  StreamTessellator(mesh).frame(depth, expected);
-  StreamTessellator(shifted).frame(depth, out);
-  double position = 0, normal = 0;
-  for (std::size_t v = 0; v < out.vertices.size(); ++v) {
-    const auto &a = out.vertices[v], &b = expected.vertices[v];
-    const double shift[] = {2000, -2000, 1000};
-    for (int c = 0; c < 3; ++c) {
-      position = std::max(position, std::abs(a.position[c] - shift[c] - b.position[c]));
-      normal = std::max<double>(normal, std::abs(a.normal[c] - b.normal[c]));
-    }
-  }
-  EXPECT_LE(position, 0x1p-14 + 1e-6);  // ulp(2000) / 2, and the rounding of both computations
-  EXPECT_LE(normal, 2e-5);              // both within the bound of row_stream_test.cpp
-  RecordProperty("worst_position", std::to_string(position));
-  RecordProperty("worst_normal", std::to_string(normal));
-}
-
-TEST(StreamFrame, OnTheFlyDeliversTheSameAsTheWholeList) {
-  for (const auto scheme : {kLoop, kQuads}) {
-    for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
-      const auto mesh = scheme == kLoop ? grid_torus(32, 40) : data::quad_torus(50, 50);
-      StreamTessellator tessellator(mesh, options_of(scheme, repair));
-      expect_a_sink_gets_the_whole_list(tessellator);
     }
   }
 }
@@ -208,18 +89,6 @@ TEST(QuadStreamFrame, HasTheDrawsAndThePointsOfTheWindowInDouble) {
       }
     }
   }
-}
-
-TEST(StreamFrame, RefusesWhatItCannotDo) {
-  EXPECT_THROW(StreamTessellator(data::ControlMesh{}), data::ArgumentError);
-  auto mesh = tetrahedron();
-  StreamTessellator tessellator(mesh);
-  DrawList<float> out;
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(3, 1), out), data::ArgumentError);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(4, 11), out), data::ArgumentError);
-  EXPECT_THROW(tessellator.frame(std::vector<std::int32_t>(4, -2), out), data::ArgumentError);
-  mesh.positions[0][0] = std::nan("");
-  EXPECT_THROW(StreamTessellator{mesh}, data::ArgumentError);
 }
 
 }  // namespace

@@ -51,6 +51,29 @@ TEST(StreamFrame, DoesNotDependOnThreadsNorOnTheTarget) {
   }
 }
 
+// What a thread needs does not grow with the mesh, and stays within a second-level cache: the kernel's rows,
+// two rows of output, and the border points of the faces that a batch repairs.
+TEST(StreamFrame, NeedsAQuarterOfAMegabytePerThreadAtDepthFive) {
+  for (const auto scheme : {kLoop, kQuads}) {
+    std::size_t most = 0;
+    for (const int size : {5, 20}) {
+      const auto mesh =
+          scheme == kLoop ? shaken(grid_torus(size, size), .1, 7) : data::quad_torus(size, size);
+      for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
+        if (scheme == kQuads && repair == Repair::kStitch) continue;  // keeps whole faces
+        StreamTessellator tessellator(mesh, options_of(scheme, repair));
+        IndexedMesh<float> out;
+        tessellator.frame(std::vector<std::int32_t>(mesh.faces.size(), 5), out);
+        most = std::max(most, tessellator.worker_bytes());
+        tessellator.frame(random_depths(mesh.faces.size(), -1, 5, 3), out);
+        most = std::max(most, tessellator.worker_bytes());
+      }
+    }
+    EXPECT_LE(most, scheme == kLoop ? 256'000u : 256u << 10);
+    RecordProperty(scheme == kLoop ? "bytes" : "bytes_of_quads", std::to_string(most));
+  }
+}
+
 // The sliding window's frames are judged by tests of their own: the same draws of the same places, and the
 // same points but for rounding.
 TEST(QuadStreamFrame, HasTheDrawsAndThePointsOfTheWindowInDouble) {

@@ -146,44 +146,24 @@ TEST(Projection, TheParameterOfAPointOfTheSurfaceIsRecovered) {
   EXPECT_LE(worst, 1e-12);
 }
 
-// The largest |normal curvature|, by the fundamental forms (do Carmo, 3.3); infinite where the evaluator has
-// no second derivatives.
-double largest_curvature(const ClosestPoint& closest, const FacePoint& at) {
-  const auto s = closest.surface().evaluate(at, reference::Order::kSecond);
-  if (!s.second_exist || s.at_corner) return std::numeric_limits<double>::infinity();
-  const double E = dot(s.d1, s.d1), F = dot(s.d1, s.d2), G = dot(s.d2, s.d2);
-  const double e = dot(s.d11, s.normal), f = dot(s.d12, s.normal), g = dot(s.d22, s.normal);
-  const double gauss = (e * g - f * f) / (E * G - F * F);
-  const double mean = (e * G - 2 * f * F + g * E) / (2 * (E * G - F * F));
-  return std::abs(mean) + std::sqrt(std::max(mean * mean - gauss, 0.0));
-}
-
 // Offset by less than half of the radii of curvature, and by less than half of the distance to any other part
-// of the surface (a thousandth of the size, on these). Next to interior vertices of valence 3 and from 7 on
-// the curvature has no bound, at those of valence 4 and 5 it has, and on a regular mesh.
+// of the surface (a thousandth of the size, on these). At vertices of valence 4 and 5, and on a regular mesh, the
+// curvature has a bound.
 TEST(Projection, ThePointItWasOffsetFromIsTheFoot) {
   double worst = 0;
-  int looked = 0;
-  for (const TestMesh& m : test::meshes_named(
-           {"bumpy:200", "icosahedron", "octahedron", "tetrahedron", "wheel:7", "quad-torus:8:6"})) {
+  for (const TestMesh& m : test::meshes_named({"icosahedron", "octahedron", "quad-torus:8:6"})) {
     const ClosestPoint closest(m.mesh, m.scheme, 1 << 14);
-    const bool bounded = m.name == "icosahedron" || m.name == "octahedron" || m.name == "quad-torus:8:6";
     data::SplitMix64 random(3);
-    for (int n = 0; n < 400; ++n) {
-      const FacePoint at = random_point(random, closest.domain());
-      const Foot truth = closest.at(at, {});
+    for (int n = 0; n < 600; ++n) {
+      const Foot truth = closest.at(random_point(random, closest.domain()), {});
       const double by = (n % 2 == 0 ? 1 : -1) * 1e-3 * closest.diagonal();
-      if (!bounded && largest_curvature(closest, at) * std::abs(by) > .5) continue;
-      ++looked;
       const Foot foot = closest.closest(truth.position + by * truth.normal);
       worst = std::max(worst, norm(foot.position - truth.position) / closest.diagonal());
       EXPECT_LE(foot.distance, std::abs(by) * (1 + 1e-12)) << m.name;
-      EXPECT_LE(norm(foot.position - truth.position), 1e-9 * closest.diagonal())
-          << m.name << " face " << text(at) << " became " << text(foot.at);
       EXPECT_TRUE(foot.stationary) << m.name;
     }
   }
-  EXPECT_GT(looked, 1600);
+  EXPECT_LE(worst, 1e-9);
   RecordProperty("worst_in_diagonals", std::to_string(worst * 1e12) + "e-12");
 }
 

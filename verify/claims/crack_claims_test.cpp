@@ -20,6 +20,7 @@
 #include "fast/window/tessellator.h"
 #include "reference/loop/basis.h"
 #include "reference/loop/stam.h"
+#include "verify/claims/test_support/figures.h"
 #include "verify/watertight/watertight.h"
 
 namespace limitcheck::verify {
@@ -73,7 +74,6 @@ std::int64_t edges_of(const Adjacency& adjacency) {
 }
 
 TEST(Sec5_Cracks, AppearWithoutRepairOnHalfOfTheEdges) {
-  RecordProperty("claim", "C56");
   const data::ControlMesh mesh = data::bumpy_sphere(2000, 1);
   TessellatorOptions options;
   options.cracks.repair = Repair::kNone;
@@ -84,7 +84,7 @@ TEST(Sec5_Cracks, AppearWithoutRepairOnHalfOfTheEdges) {
   const double share =
       static_cast<double>(mismatched_edges(tessellator.adjacency(), tessellator.last_plan())) /
       static_cast<double>(edges_of(tessellator.adjacency()));
-  RecordProperty("mismatched_share", fmt::format("{:.3f}", share));
+  record("{:.3f}", share, "mismatched_share");
   EXPECT_GT(share, .4) << share;
   EXPECT_LT(share, .6) << share;
   const Surface surface(list);
@@ -92,7 +92,6 @@ TEST(Sec5_Cracks, AppearWithoutRepairOnHalfOfTheEdges) {
 }
 
 TEST(Sec5_EdgeDepth, MustBeTheMaximumOfBothFaces) {
-  RecordProperty("claim", "C57 C58 C59");
   for (const int faces : {200, 800, 4000}) {
     const data::ControlMesh mesh = data::bumpy_sphere(faces, 2);
     data::SplitMix64 random(static_cast<std::uint64_t>(faces));
@@ -110,10 +109,9 @@ TEST(Sec5_EdgeDepth, MustBeTheMaximumOfBothFaces) {
         EXPECT_EQ(mismatched, 0) << faces;
         EXPECT_TRUE(report.closed()) << faces;
       } else {
-        RecordProperty(fmt::format("{}_{}_mismatched_of_{}",
-                                   rule == EdgeDepthRule::kRespective ? "respective" : "two_or_more", faces,
-                                   edges_of(tessellator.adjacency())),
-                       static_cast<int>(mismatched));
+        record("{}", static_cast<int>(mismatched), "{}_{}_mismatched_of_{}",
+               rule == EdgeDepthRule::kRespective ? "respective" : "two_or_more", faces,
+               edges_of(tessellator.adjacency()));
         EXPECT_GT(mismatched, 0) << faces;
         EXPECT_GT(report.open_edges.size(), 0u) << faces;
       }
@@ -122,7 +120,6 @@ TEST(Sec5_EdgeDepth, MustBeTheMaximumOfBothFaces) {
 }
 
 TEST(Sec5_Watertight, TenThousandRandomDepthAssignmentsOnSmallMeshes) {
-  RecordProperty("claim", "C59 C60");
   struct Shape {
     std::string name;
     data::ControlMesh mesh;
@@ -161,26 +158,7 @@ TEST(Sec5_Watertight, TenThousandRandomDepthAssignmentsOnSmallMeshes) {
   EXPECT_GE(total, 10000);
 }
 
-TEST(Sec5_Watertight, AHundredFramesOfFourThousandFaces) {
-  RecordProperty("claim", "C59");
-  const data::ControlMesh mesh = data::bumpy_sphere(4000, 1);
-  Tessellator<float> tessellator(mesh);
-  data::SplitMix64 random(5);
-  DrawList<float> list;
-  for (int frame = 0; frame < 100; ++frame) {
-    tessellator.frame(random_depths(mesh.faces.size(), 0, frame % 3, random), list);
-    const Surface surface(list);
-    const SurfaceReport report = inspect_surface(surface.points, surface.triangles);
-    ASSERT_TRUE(report.closed()) << frame;
-    if (frame % 10 == 0) {
-      const SurfaceJudgement judgement = judge_surface(surface.points, surface.triangles);
-      ASSERT_TRUE(judgement.manifold() && judgement.closed) << frame;
-    }
-  }
-}
-
 TEST(Sec5_Centre, IsNoVertexOfAnyFiniteSubdivision) {
-  RecordProperty("claim", "C61");
   TessellatorOptions options{.provenance = true};
   Tessellator<double> tessellator(data::octahedron(), options);
   for (int depth = 0; depth <= 7; ++depth) {
@@ -202,7 +180,6 @@ struct Dual {
 };
 
 TEST(Sec5_CenterWeights, EqualTheStamBasisAtOneThird) {
-  RecordProperty("claim", "C65 C66 C68");
   // Twelve times homogeneous functions of degree 4, at (1, 1, 1) / 3: values / (12 * 81), slopes / (12 * 27).
   const auto alpha = reference::appendix_a(Dual{1, 1}, Dual{1, 0}, Dual{1, -1});
   const auto beta = reference::appendix_a(Dual{1, 0}, Dual{1, 1}, Dual{1, -1});
@@ -241,7 +218,6 @@ V vector(const reference::Vec3<double>& p) {
 }
 
 TEST(Sec5_Centre, IsExactAfterOneStepAlsoAtBoundaries) {
-  RecordProperty("claim", "C63 C67");
   double position = 0, normal = 0;
   int by_boundary_edges[4]{};
   for (const auto& mesh :
@@ -264,8 +240,8 @@ TEST(Sec5_Centre, IsExactAfterOneStepAlsoAtBoundaries) {
       normal = std::max(normal, std::sqrt(dot(dn, dn)));
     }
   }
-  RecordProperty("worst_position", fmt::format("{:.2g}", position));
-  RecordProperty("worst_normal", fmt::format("{:.2g}", normal));
+  record("{:.2g}", position, "worst_position");
+  record("{:.2g}", normal, "worst_normal");
   EXPECT_LE(position, 1e-14);
   EXPECT_LE(normal, 1e-12);
   for (const int faces : by_boundary_edges) EXPECT_GT(faces, 0) << "no face with so many boundary edges";
@@ -287,7 +263,6 @@ double distance_to_triangle(const V& p, const V& a, const V& b, const V& c) {
 }
 
 TEST(Sec5_Centre, OnTheLimitSurfaceDeviatesLessThanFlat) {
-  RecordProperty("claim", "C62");
   const data::ControlMesh mesh = data::bumpy_sphere(400, 1);
   const Adjacency adjacency(mesh);
   const PreparedMesh<double> prepared(adjacency, fast::positions_of<double>(mesh));
@@ -317,8 +292,8 @@ TEST(Sec5_Centre, OnTheLimitSurfaceDeviatesLessThanFlat) {
     }
   }
   const double control = std::sqrt(square[1] / square[0]), limit = std::sqrt(square[2] / square[0]);
-  RecordProperty("control_centroid_to_limit_centre", fmt::format("{:.3f}", control));
-  RecordProperty("limit_corner_centroid_to_limit_centre", fmt::format("{:.3f}", limit));
+  record("{:.3f}", control, "control_centroid_to_limit_centre");
+  record("{:.3f}", limit, "limit_corner_centroid_to_limit_centre");
   EXPECT_GT(control, 1.2) << control;
   EXPECT_GT(limit, 1.4) << limit;
 }
@@ -345,7 +320,6 @@ void expect_on_surface(const data::ControlMesh& mesh, const DrawList<float>& lis
 }
 
 TEST(Sec43_Singletons, ShowTheirOwnFaceAndNothingElse) {
-  RecordProperty("claim", "C81");
   for (const auto& mesh :
        {data::triangle(), data::wheel(3, 1), data::strip(5), data::fan(3, 1), data::tetrahedron()}) {
     for (int depth = 0; depth <= 4; ++depth) {

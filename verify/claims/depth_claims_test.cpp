@@ -9,9 +9,9 @@
 #include <set>
 #include <vector>
 
-#include "data/generators/bumpy_sphere.h"
-#include "fast/plan/depth.h"
 #include "fast/rules/ring.h"
+#include "verify/claims/test_support/figures.h"
+#include "verify/claims/test_support/scene.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -20,14 +20,6 @@ using fast::Camera;
 using fast::DepthOptions;
 using fast::Facing;
 using fast::Strategy;
-
-struct Scene {
-  explicit Scene(int faces, int max_depth = 5)
-      : mesh(data::bumpy_sphere(faces, 1)), adjacency(mesh), heuristics(mesh, adjacency, max_depth) {}
-  data::ControlMesh mesh;
-  fast::Adjacency adjacency;
-  fast::DepthHeuristics heuristics;
-};
 
 double cosine(double degrees) {
   return std::cos(degrees * std::numbers::pi / 180);
@@ -54,7 +46,6 @@ std::vector<std::vector<double>> corner_cosines(const Scene& scene, int levels) 
 }
 
 TEST(Sec41_Depth, TakesSevenValuesOfWhichTheDeepestIs1024Triangles) {
-  RecordProperty("claim", "C22");
   const Scene scene(800);
   std::set<std::int32_t> met;
   DepthOptions options{.strategy = Strategy::kProjectSphere, .target_pixels = 10};
@@ -69,7 +60,6 @@ TEST(Sec41_Depth, TakesSevenValuesOfWhichTheDeepestIs1024Triangles) {
 // "The minimal l with N . N^(l) < cos alpha": read literally,
 // a corner is outside the cone at first or never again.
 TEST(Sec41_ConeFormula, WithThePrintedInequalityHoldsAtDepthZeroOrNeverAndWithTheReversedOneAtSomeDepth) {
-  RecordProperty("claim", "C27");
   constexpr int kLevels = 10;
   for (const int faces : {200, 800, 4000}) {
     const Scene scene(faces);
@@ -88,9 +78,9 @@ TEST(Sec41_ConeFormula, WithThePrintedInequalityHoldsAtDepthZeroOrNeverAndWithTh
         corrected += reversed >= 0;
       }
       const std::string key = fmt::format("_{}_faces_{}_degrees", faces, alpha);
-      RecordProperty("literal_at_zero_percent" + key, fmt::format("{:.1f}", 100. * literal_at_zero / faces));
-      RecordProperty("literal_later_faces" + key, std::to_string(literal_later));
-      RecordProperty("reversed_never_faces" + key, std::to_string(faces - corrected));
+      record("{:.1f}", 100. * literal_at_zero / faces, "literal_at_zero_percent{}", key);
+      record("{}", literal_later, "literal_later_faces{}", key);
+      record("{}", faces - corrected, "reversed_never_faces{}", key);
       EXPECT_GE(corrected, .99 * faces) << "inside its cones at some depth, but for a few extreme spikes";
       EXPECT_GT(literal_never, 0) << "by no depth";
       EXPECT_LE(literal_later, faces / 50) << "a corner inside by chance at depth 0, then all three outside";
@@ -100,9 +90,8 @@ TEST(Sec41_ConeFormula, WithThePrintedInequalityHoldsAtDepthZeroOrNeverAndWithTh
 
 // By face, with depths up to the paper's 5, and up to 10, where hardly any face is cut off.
 TEST(Sec41_ConeRules, OfTheFormulaAndOfTheProcedureDiffer) {
-  RecordProperty("claim", "C28");
   for (const int faces : {200, 800, 4000}) {
-    const Scene scene(faces, fast::kDeepest);
+    const Scene scene(faces, 1, fast::kDeepest);
     const auto cosines = corner_cosines(scene, fast::kDeepest);
     const double limit = cosine(15);
     for (const int deepest : {5, fast::kDeepest}) {
@@ -122,8 +111,8 @@ TEST(Sec41_ConeRules, OfTheFormulaAndOfTheProcedureDiffer) {
         procedure_sum += procedure;
       }
       const std::string key = fmt::format("{}_up_to_{}", faces, deepest);
-      RecordProperty("mean_depth_formula_" + key, fmt::format("{:.2f}", formula_sum / faces));
-      RecordProperty("mean_depth_procedure_" + key, fmt::format("{:.2f}", procedure_sum / faces));
+      record("{:.2f}", formula_sum / faces, "mean_depth_formula_{}", key);
+      record("{:.2f}", procedure_sum / faces, "mean_depth_procedure_{}", key);
       EXPECT_GT(procedure_sum, formula_sum + .2 * faces) << key;
     }
   }
@@ -132,7 +121,6 @@ TEST(Sec41_ConeRules, OfTheFormulaAndOfTheProcedureDiffer) {
 // "The prescribed deviation can be varied according to the classification of a vertex": of the faces whose vertices all
 // are of one class, and of no others, the depth follows that class's angle.
 TEST(Sec41_ConeAngle, MayDifferByTheClassOfTheVertex) {
-  RecordProperty("claim", "C87");
   const Scene scene(800);
   const auto depths = [&](double front, double silhouette) {
     DepthOptions options{.strategy = Strategy::kCurvature};
@@ -151,8 +139,8 @@ TEST(Sec41_ConeAngle, MayDifferByTheClassOfTheVertex) {
     by_silhouette += coarse_silhouette[f] < fine[f];
     by_both += all_coarse[f] < std::min(coarse_front[f], coarse_silhouette[f]);
   }
-  RecordProperty("faces_of_800_less_deep_by_the_angle_of_front_vertices", by_front);
-  RecordProperty("faces_of_800_less_deep_by_the_angle_of_silhouette_vertices", by_silhouette);
+  record("{}", by_front, "faces_of_800_less_deep_by_the_angle_of_front_vertices");
+  record("{}", by_silhouette, "faces_of_800_less_deep_by_the_angle_of_silhouette_vertices");
   EXPECT_GT(by_front, 0);
   EXPECT_GT(by_silhouette, 0);
   EXPECT_GT(by_both, 0) << "faces with vertices of both classes follow both angles";
@@ -160,7 +148,6 @@ TEST(Sec41_ConeAngle, MayDifferByTheClassOfTheVertex) {
 
 // The procedure and the formula meet where they must: the vertex value is the smallest over its triangles.
 TEST(Sec41_ConeRules, TheProcedureTakesTheWorstOfAllIncidentSubTriangles) {
-  RecordProperty("claim", "C28, C29");
   const Scene scene(200);
   const auto cosines = corner_cosines(scene, 5);
   for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v) {
@@ -175,10 +162,9 @@ TEST(Sec41_ConeRules, TheProcedureTakesTheWorstOfAllIncidentSubTriangles) {
 }
 
 TEST(Sec41_Cone, OnceEnteredItIsHardlyEverLeft) {
-  RecordProperty("claim", "C30");
   constexpr int kLevels = 6;
   for (const int faces : {200, 800, 4000}) {
-    const Scene scene(faces, kLevels);
+    const Scene scene(faces, 1, kLevels);
     const auto cosines = corner_cosines(scene, kLevels);
     for (const double alpha : {15., 30.}) {
       const double limit = cosine(alpha);
@@ -199,8 +185,8 @@ TEST(Sec41_Cone, OnceEnteredItIsHardlyEverLeft) {
       for (std::int32_t v = 0; v < scene.adjacency.vertex_count(); ++v)
         left_by_vertex += is_left_again([&](int l) { return scene.heuristics.cone_cosine(v, l); });
       const std::string key = fmt::format("_{}_faces_{}_degrees", faces, alpha);
-      RecordProperty("left_again_faces" + key, std::to_string(left_by_face));
-      RecordProperty("left_again_vertices" + key, std::to_string(left_by_vertex));
+      record("{}", left_by_face, "left_again_faces{}", key);
+      record("{}", left_by_vertex, "left_again_vertices{}", key);
       EXPECT_LE(left_by_face, std::max(1, faces / 100)) << key;
       EXPECT_LE(left_by_vertex, std::max(1, faces / 400)) << key;
     }
@@ -209,7 +195,6 @@ TEST(Sec41_Cone, OnceEnteredItIsHardlyEverLeft) {
 
 // T2 of the register: combined is nowhere below either, stays culled, and costs more per visible face.
 TEST(Sec41_Combined, AsTheMaximumIsNeverBelowEitherAndKeepsCulledFacesCulled) {
-  RecordProperty("claim", "C82");
   double previous_sphere = 1e300, previous_combined = 0;
   for (const int faces : {200, 800, 4000}) {
     const Scene scene(faces);
@@ -235,10 +220,8 @@ TEST(Sec41_Combined, AsTheMaximumIsNeverBelowEitherAndKeepsCulledFacesCulled) {
     }
     const double sphere = triangles[0] / static_cast<double>(visible),
                  combined = triangles[2] / static_cast<double>(visible);
-    RecordProperty(fmt::format("triangles_per_visible_face_project_sphere_{}", faces),
-                   fmt::format("{:.1f}", sphere));
-    RecordProperty(fmt::format("triangles_per_visible_face_combined_{}", faces),
-                   fmt::format("{:.1f}", combined));
+    record("{:.1f}", sphere, "triangles_per_visible_face_project_sphere_{}", faces);
+    record("{:.1f}", combined, "triangles_per_visible_face_combined_{}", faces);
     EXPECT_LT(sphere, previous_sphere);
     EXPECT_GT(combined, previous_combined);
     previous_sphere = sphere;

@@ -13,8 +13,9 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
-#include "fast/plan/depth.h"
 #include "reference/loop/stam.h"
+#include "verify/claims/test_support/figures.h"
+#include "verify/claims/test_support/scene.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -35,13 +36,9 @@ double angle(const Point3& a, const Point3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
 }
 
-struct Scene {
-  explicit Scene(data::ControlMesh m)
-      : mesh(std::move(m)), adjacency(mesh), heuristics(mesh, adjacency), truth(mesh) {}
-  data::ControlMesh mesh;
-  fast::Adjacency adjacency;
-  fast::DepthHeuristics heuristics;
-  Evaluator truth;
+struct TrueScene : Scene {
+  using Scene::Scene;
+  Evaluator truth{mesh};
 };
 
 /// Limit positions and normals of a face on the lattice of
@@ -97,9 +94,8 @@ std::vector<std::int32_t> half_edges_from(const fast::Adjacency& adjacency, std:
 }
 
 TEST(Sec41_ProjectSphere, MayMisjudgeTheLimitPatchAndIsNoBoundingVolume) {
-  RecordProperty("claim", "C23, C25");
   for (const int faces : {200, 800}) {
-    const Scene scene(data::bumpy_sphere(faces, 1));
+    const TrueScene scene(faces);
     std::vector<double> ratio;
     int leaving = 0;
     for (std::int32_t f = 0; f < faces; ++f) {
@@ -111,10 +107,9 @@ TEST(Sec41_ProjectSphere, MayMisjudgeTheLimitPatchAndIsNoBoundingVolume) {
       });
     }
     const double least = quantile(ratio, 0), median = quantile(ratio, .5), most = quantile(ratio, 1);
-    RecordProperty(fmt::format("patch_radius_over_triangle_radius_{}", faces),
-                   fmt::format("{:.2f} {:.2f} {:.2f}", least, median, most));
-    RecordProperty(fmt::format("percent_leaving_the_sphere_{}", faces),
-                   fmt::format("{:.1f}", 100. * leaving / faces));
+    record("{}", fmt::format("{:.2f} {:.2f} {:.2f}", least, median, most),
+           "patch_radius_over_triangle_radius_{}", faces);
+    record("{:.1f}", 100. * leaving / faces, "percent_leaving_the_sphere_{}", faces);
     EXPECT_LT(least, .4);
     EXPECT_GT(most, 1.1);
     EXPECT_LT(median, .9);
@@ -125,7 +120,6 @@ TEST(Sec41_ProjectSphere, MayMisjudgeTheLimitPatchAndIsNoBoundingVolume) {
 // The weight of control point i is the limit function of the values 1 at i and 0 elsewhere. All of them are
 // non-negative and sum to 1, so every limit point is a convex combination; none reaches beyond the one-ring.
 TEST(Sec41_ConvexHull, OfTheNeighbourhoodBoundsTheLimitPatchBecauseNoWeightIsNegative) {
-  RecordProperty("claim", "C24");
   double least = 1, worst_sum = 0, beyond = 0;
   for (const auto& mesh : {data::bumpy_sphere(60, 1), data::tetrahedron(), data::wheel(12, 2),
                            data::wheel(3, 2), data::fan(3, 2), data::fan(7, 2), data::ragged_disc()}) {
@@ -162,7 +156,7 @@ TEST(Sec41_ConvexHull, OfTheNeighbourhoodBoundsTheLimitPatchBecauseNoWeightIsNeg
     }
     for (const double sum : sums) worst_sum = std::max(worst_sum, std::abs(sum - 1));
   }
-  RecordProperty("least_weight", fmt::format("{:.3g}", least));
+  record("{:.3g}", least, "least_weight");
   // Weights are of order 1 and computed by about 30 operations: a few hundred units of 1.1e-16 at the most.
   EXPECT_GE(least, -1e-13);
   EXPECT_LE(worst_sum, 1e-13);
@@ -170,8 +164,7 @@ TEST(Sec41_ConvexHull, OfTheNeighbourhoodBoundsTheLimitPatchBecauseNoWeightIsNeg
 }
 
 TEST(Sec41_ConvexHull, IsNotTight) {
-  RecordProperty("claim", "C24");
-  const Scene scene(data::bumpy_sphere(200, 1));
+  const TrueScene scene(200);
   std::vector<double> ratio;
   for (std::int32_t f = 0; f < 200; ++f) {
     std::vector<Point3> neighbourhood = corners(scene, f);
@@ -181,7 +174,7 @@ TEST(Sec41_ConvexHull, IsNotTight) {
     ratio.push_back(sphere_round_mean(neighbourhood).radius /
                     sphere_round_mean(sample(scene.truth, f, 3).position).radius);
   }
-  RecordProperty("median_radius_of_neighbourhood_over_patch", fmt::format("{:.2f}", quantile(ratio, .5)));
+  record("{:.2f}", quantile(ratio, .5), "median_radius_of_neighbourhood_over_patch");
   EXPECT_GT(quantile(ratio, 0), 1.2);
   EXPECT_GT(quantile(ratio, .5), 2);
 }
@@ -189,9 +182,8 @@ TEST(Sec41_ConvexHull, IsNotTight) {
 // The cones that the paper describes and does not compute: an axis and the largest angle of all normals of the limit
 // patch to it, and a sphere that its points lie in. Whoever they call front or back is that all over.
 TEST(Sec41_NormalCones, OfTheLimitPatchTellFrontBackAndSilhouette) {
-  RecordProperty("claim", "C26");
   for (const int faces : {200, 800}) {
-    const Scene scene(data::bumpy_sphere(faces, 1));
+    const TrueScene scene(faces);
     const Camera camera;
     int decided = 0, silhouettes = 0, truly = 0;
     for (std::int32_t f = 0; f < faces; ++f) {
@@ -214,21 +206,17 @@ TEST(Sec41_NormalCones, OfTheLimitPatchTellFrontBackAndSilhouette) {
       EXPECT_TRUE(!front || away == 0) << faces << " faces, face " << f;
       EXPECT_TRUE(!back || away == finer.position.size()) << faces << " faces, face " << f;
     }
-    RecordProperty(fmt::format("percent_decided_by_cones_{}", faces),
-                   fmt::format("{:.0f}", 100. * decided / faces));
-    RecordProperty(fmt::format("percent_called_silhouette_{}", faces),
-                   fmt::format("{:.0f}", 100. * silhouettes / faces));
-    RecordProperty(fmt::format("percent_truly_on_the_silhouette_{}", faces),
-                   fmt::format("{:.0f}", 100. * truly / faces));
+    record("{:.0f}", 100. * decided / faces, "percent_decided_by_cones_{}", faces);
+    record("{:.0f}", 100. * silhouettes / faces, "percent_called_silhouette_{}", faces);
+    record("{:.0f}", 100. * truly / faces, "percent_truly_on_the_silhouette_{}", faces);
     EXPECT_GE(silhouettes, truly) << "no silhouette is missed";
     EXPECT_GT(decided, faces / 10);
   }
 }
 
 TEST(Sec41_Culling, HidesSomeFrontFacingPointsAndCompletelyFrontFacingIsNoGuarantee) {
-  RecordProperty("claim", "C31, C32");
   for (const int faces : {200, 800}) {
-    const Scene scene(data::bumpy_sphere(faces, 1));
+    const TrueScene scene(faces);
     const Camera camera;
     const auto facing = scene.heuristics.facing(camera);
     int culled = 0, wrongly_culled = 0, front = 0, wrongly_front = 0;
@@ -252,10 +240,8 @@ TEST(Sec41_Culling, HidesSomeFrontFacingPointsAndCompletelyFrontFacingIsNoGuaran
                   facing[f] == Facing::kBack);
       }
     }
-    RecordProperty(fmt::format("percent_of_culled_with_front_points_{}", faces),
-                   fmt::format("{:.1f}", 100. * wrongly_culled / culled));
-    RecordProperty(fmt::format("percent_of_front_with_back_points_{}", faces),
-                   fmt::format("{:.1f}", 100. * wrongly_front / front));
+    record("{:.1f}", 100. * wrongly_culled / culled, "percent_of_culled_with_front_points_{}", faces);
+    record("{:.1f}", 100. * wrongly_front / front, "percent_of_front_with_back_points_{}", faces);
     EXPECT_GT(wrongly_culled, culled / 20);
     EXPECT_LT(wrongly_culled, culled / 2);
     EXPECT_GT(wrongly_front, front / 20);
@@ -265,12 +251,11 @@ TEST(Sec41_Culling, HidesSomeFrontFacingPointsAndCompletelyFrontFacingIsNoGuaran
 
 // Limit position and normal of the heuristics against the exact evaluator, at every vertex.
 TEST(Sec41_VertexNormals, OfTheHeuristicsAreThoseOfTheLimitSurface) {
-  RecordProperty("claim", "C14, C17, D2");
   double worst_position = 0, worst_normal = 0;
   for (const auto& mesh :
        {data::bumpy_sphere(800, 1), data::tetrahedron(), data::wheel(50), data::fan(1, 2), data::fan(2, 2),
         data::fan(3, 2), data::fan(5, 2), data::sheet(4, 5), data::strip(5), data::bipyramid(200)}) {
-    const Scene scene(mesh);
+    const TrueScene scene(mesh);
     for (std::int32_t f = 0; f < scene.adjacency.face_count(); ++f) {
       for (int k = 0; k < 3; ++k) {
         const auto p = scene.truth.evaluate(f, k == 1 ? 1. : 0., k == 2 ? 1. : 0., Order::kFirst);
@@ -281,8 +266,8 @@ TEST(Sec41_VertexNormals, OfTheHeuristicsAreThoseOfTheLimitSurface) {
       }
     }
   }
-  RecordProperty("worst_position", fmt::format("{:.2g}", worst_position));
-  RecordProperty("worst_normal_degrees", fmt::format("{:.2g}", worst_normal));
+  record("{:.2g}", worst_position, "worst_position");
+  record("{:.2g}", worst_normal, "worst_normal_degrees");
   EXPECT_LE(worst_position, 1e-14);  // sums of at most 200 numbers of order 1
   EXPECT_LE(worst_normal, 1e-10);
 }
@@ -290,9 +275,8 @@ TEST(Sec41_VertexNormals, OfTheHeuristicsAreThoseOfTheLimitSurface) {
 // Depth from the corners alone: somewhere inside, a sub-triangle may deviate from the limit normals at its
 // own corners by more than the prescribed angle.
 TEST(Sec41_Cone, AtTheCornersDoesNotBoundTheCurvatureInside) {
-  RecordProperty("claim", "C33");
   for (const int faces : {200, 800}) {
-    const Scene scene(data::bumpy_sphere(faces, 1));
+    const TrueScene scene(faces);
     DepthOptions options;
     options.strategy = Strategy::kCurvature;
     options.cull = false;
@@ -319,8 +303,8 @@ TEST(Sec41_Cone, AtTheCornersDoesNotBoundTheCurvatureInside) {
       beyond += here > 15;
       worst = std::max(worst, here);
     }
-    RecordProperty(fmt::format("faces_of_depth_2_to_5_beyond_15_degrees_inside_{}", faces),
-                   fmt::format("{} of {}, worst {:.1f} degrees", beyond, looked_at, worst));
+    record("{}", fmt::format("{} of {}, worst {:.1f} degrees", beyond, looked_at, worst),
+           "faces_of_depth_2_to_5_beyond_15_degrees_inside_{}", faces);
     EXPECT_GT(beyond, looked_at / 100);
     EXPECT_LT(beyond, looked_at / 2);
     EXPECT_GT(worst, 20);
@@ -339,15 +323,14 @@ double difference(std::vector<Point3> curve, int k) {
 }
 
 TEST(Sec41_LoopSurface, IsOfDegreeFourInsideAndCubicOnlyAlongTheBoundary) {
-  RecordProperty("claim", "C34");
-  const Scene closed(data::torus(7, 6));
+  const TrueScene closed(data::torus(7, 6));
   std::vector<Point3> inside;
   for (int i = 0; i <= 8; ++i)
     inside.push_back(point(closed.truth.evaluate(5, i / 16., i / 24., Order::kPosition).position));
   EXPECT_LE(difference(inside, 5), 1e-14);  // 2^5 times the rounding of one position
   EXPECT_GE(difference(inside, 4), 1e-7) << "not a cubic";
 
-  const Scene open(data::sheet(6, 6));
+  const TrueScene open(data::sheet(6, 6));
   bool found = false;
   for (std::int32_t h = 0; h < 3 * open.adjacency.face_count() && !found; ++h) {
     if (open.adjacency.twin(h) >= 0 || open.adjacency.valence(open.adjacency.origin(h)) != 4 ||

@@ -12,6 +12,7 @@
 
 #include "fast/gpu/shaders.h"
 #include "fast/stream/kernel/kernel.h"
+#include "verify/claims/test_support/figures.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -43,7 +44,6 @@ int groups_at_a_time(std::int64_t bytes) {
 }
 
 TEST(Sec4_Hardware, ARowAtATimeSharesTwoToTheDepthWhereWholeLevelsShareFour) {
-  RecordProperty("claim", "C92");
   for (int depth = 4; depth < fast::gpu::kMaxDepth; ++depth) {
     // What each further level adds doubles but for what the corners take, which is the same at each.
     const auto added = [](int d) { return shared_bytes(d) - shared_bytes(d - 1); };
@@ -57,10 +57,10 @@ TEST(Sec4_Hardware, ARowAtATimeSharesTwoToTheDepthWhereWholeLevelsShareFour) {
   EXPECT_EQ(groups_at_a_time(shared_bytes(5)), 32);
   EXPECT_LE(groups_at_a_time(whole_bytes(6)), 4);
   for (const int depth : {3, 5, 6, 8}) {
-    RecordProperty(fmt::format("shared_at_depth_{}", depth), fmt::format("{}", shared_bytes(depth)));
-    RecordProperty(fmt::format("whole_at_depth_{}", depth), fmt::format("{}", whole_bytes(depth)));
-    RecordProperty(fmt::format("groups_at_depth_{}", depth), groups_at_a_time(shared_bytes(depth)));
-    RecordProperty(fmt::format("whole_groups_at_depth_{}", depth), groups_at_a_time(whole_bytes(depth)));
+    record("{}", shared_bytes(depth), "shared_at_depth_{}", depth);
+    record("{}", whole_bytes(depth), "whole_at_depth_{}", depth);
+    record("{}", groups_at_a_time(shared_bytes(depth)), "groups_at_depth_{}", depth);
+    record("{}", groups_at_a_time(whole_bytes(depth)), "whole_groups_at_depth_{}", depth);
   }
 }
 
@@ -92,7 +92,6 @@ struct CountedNumber {
 
 // The kernel's own text, which the shaders have bit by bit (GlKernel.HasTheBits..), counts its operations.
 TEST(Sec4_Hardware, APointCostsTheSameWhateverTheDepth) {
-  RecordProperty("claim", "C92");
   namespace rs = fast::row_stream;
   double before = 0;
   for (int depth = 2; depth <= fast::gpu::kMaxDepth; ++depth) {
@@ -108,7 +107,7 @@ TEST(Sec4_Hardware, APointCostsTheSameWhateverTheDepth) {
       EXPECT_LT(of_a_point, before) << depth;
     }
     before = of_a_point;
-    RecordProperty(fmt::format("operations_at_depth_{}", depth), fmt::format("{:.0f}", of_a_point));
+    record("{:.0f}", of_a_point, "operations_at_depth_{}", depth);
   }
   EXPECT_LT(before, 100);
 }

@@ -22,11 +22,12 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/named_mesh.h"
 #include "data/shapes.h"
-#include "fast/plan/depth.h"
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "reference/catmull_clark/recursion.h"
 #include "reference/loop/refine.h"
+#include "verify/claims/test_support/figures.h"
+#include "verify/claims/test_support/scene.h"
 #include "verify/host/host.h"
 #include "verify/picture/canvas.h"
 #include "verify/picture/judge.h"
@@ -36,7 +37,6 @@ namespace limitcheck::verify {
 namespace {
 
 TEST(Sec1_Growth, IsFourfoldForTrianglesAndForPolygonsFromTheSecondStepOn) {
-  RecordProperty("claim", "C01");
   for (const auto& mesh : {data::tetrahedron(), data::holes(), data::bumpy_sphere(60, 1)}) {
     std::size_t faces = mesh.faces.size();
     for (int depth = 1; depth <= 3; ++depth) {
@@ -77,7 +77,6 @@ TEST(Sec1_Growth, IsFourfoldForTrianglesAndForPolygonsFromTheSecondStepOn) {
 }
 
 TEST(Sec1_Triangles, PerControlTriangleAre64To1024AtDepthsThreeToFive) {
-  RecordProperty("claim", "C02");
   for (const auto* subject : {lc_subject_naive(), lc_subject_sliding_window()}) {
     Session session(*subject, data::tetrahedron());
     EXPECT_EQ(session.tessellate(3).triangle_count(), 4 * 64);
@@ -88,7 +87,6 @@ TEST(Sec1_Triangles, PerControlTriangleAre64To1024AtDepthsThreeToFive) {
 // A wall of 125 x 80 squares, two triangles each, that fills the screen: pixels of a triangle. If of 20 000
 // only three in five are seen, and these fill it, each has so many more.
 TEST(Sec1_ScreenSize, OfTwentyThousandTrianglesIsThirtyNinePixelsAndSixtyFiveIfTwoInFiveFaceAway) {
-  RecordProperty("claim", "C03");
   fast::Camera camera{.eye = {0, 0, 1}};
   camera.field_of_view = 90;  // half of the height is 1
   const double half = static_cast<double>(camera.width) / camera.height;
@@ -113,14 +111,13 @@ TEST(Sec1_ScreenSize, OfTwentyThousandTrianglesIsThirtyNinePixelsAndSixtyFiveIfT
   ASSERT_EQ(triangles, 20'000);
   EXPECT_EQ(pixels, 1024 * 768);
   const double all = static_cast<double>(pixels) / triangles, some = all / (1 - 2. / 5);
-  RecordProperty("pixels_each_if_all_are_seen", fmt::format("{:.1f}", all));
-  RecordProperty("pixels_each_if_two_in_five_face_away", fmt::format("{:.1f}", some));
+  record("{:.1f}", all, "pixels_each_if_all_are_seen");
+  record("{:.1f}", some, "pixels_each_if_two_in_five_face_away");
   EXPECT_NEAR(all, 40, 1);
   EXPECT_NEAR(some, 65, 1);
 }
 
 TEST(Sec1_ScreenSize, NineToElevenPixelsIsTheLegOfARightTriangleAndNoOtherDiameter) {
-  RecordProperty("claim", "C04");
   const auto near = [](double low, double high) { return std::round(low) == 9 && std::round(high) == 11; };
   const auto leg = [](double a) { return std::sqrt(2 * a); };
   const auto side = [](double a) { return std::sqrt(4 * a / std::sqrt(3.)); };
@@ -138,23 +135,6 @@ using fast::Strategy;
 
 constexpr std::array kFaces{200, 800, 2000, 4000};
 
-struct Scene {
-  explicit Scene(int faces)
-      : mesh(data::bumpy_sphere(faces, 1)), adjacency(mesh), heuristics(mesh, adjacency) {}
-
-  std::vector<std::int32_t> depths(Strategy strategy, double pixels, double degrees) const {
-    DepthOptions options;
-    options.strategy = strategy;
-    options.target_pixels = pixels;
-    options.angle_front = options.angle_silhouette = options.angle_back = degrees;
-    return heuristics.depths(options, Camera{});
-  }
-
-  data::ControlMesh mesh;
-  fast::Adjacency adjacency;
-  fast::DepthHeuristics heuristics;
-};
-
 std::int64_t triangles(const std::vector<std::int32_t>& depths) {
   std::int64_t sum = 0;
   for (const auto d : depths)
@@ -167,7 +147,6 @@ std::int64_t visible(const std::vector<std::int32_t>& depths) {
 }
 
 TEST(Sec6_Curvature, GrowsWithTheNumberOfFaces) {
-  RecordProperty("claim", "C72");
   double before = 0;
   for (const int faces : kFaces) {
     const Scene scene(faces);
@@ -175,27 +154,26 @@ TEST(Sec6_Curvature, GrowsWithTheNumberOfFaces) {
     for (std::size_t v = 0; v < scene.mesh.positions.size(); ++v)
       sum += scene.heuristics.cone_depth(static_cast<std::int32_t>(v), std::sqrt(.75));
     const double mean = sum / static_cast<double>(scene.mesh.positions.size());
-    RecordProperty(fmt::format("mean_cone_depth_at_30_degrees_{}", faces), fmt::format("{:.2f}", mean));
+    record("{:.2f}", mean, "mean_cone_depth_at_30_degrees_{}", faces);
     EXPECT_GT(mean, before) << faces;
     before = mean;
   }
 }
 
 TEST(Sec6_Combined, GivesMoreDepthAsFacesGrowWhileProjectSphereGivesLess) {
-  RecordProperty("claim", "C75");
   std::vector<double> sphere, combined;
   for (const int faces : kFaces) {
     const Scene scene(faces);
     const auto per_face = [&](Strategy s) {
-      const auto depths = scene.depths(s, 60, 30);
+      DepthOptions options{.strategy = s, .target_pixels = 60};
+      options.angle_front = options.angle_silhouette = options.angle_back = 30;
+      const auto depths = scene.heuristics.depths(options, Camera{});
       return static_cast<double>(triangles(depths)) / static_cast<double>(visible(depths));
     };
     sphere.push_back(per_face(Strategy::kProjectSphere));
     combined.push_back(per_face(Strategy::kCombined));
-    RecordProperty(fmt::format("triangles_per_visible_face_project_sphere_{}", faces),
-                   fmt::format("{:.1f}", sphere.back()));
-    RecordProperty(fmt::format("triangles_per_visible_face_combined_{}", faces),
-                   fmt::format("{:.1f}", combined.back()));
+    record("{:.1f}", sphere.back(), "triangles_per_visible_face_project_sphere_{}", faces);
+    record("{:.1f}", combined.back(), "triangles_per_visible_face_combined_{}", faces);
     EXPECT_GE(combined.back(), sphere.back());
   }
   EXPECT_LT(sphere.back(), sphere.front());
@@ -204,7 +182,6 @@ TEST(Sec6_Combined, GivesMoreDepthAsFacesGrowWhileProjectSphereGivesLess) {
 
 // Spheres differ: so many of each size that the steps between sizes are beyond what chance makes of the means.
 TEST(Sec6_BackfaceShare, FallsWithTheNumberOfFaces) {
-  RecordProperty("claim", "C77");
   constexpr int kSpheres = 30;
   double mean_before = 1e300, error_before = 0;
   for (const int faces : kFaces) {
@@ -220,8 +197,8 @@ TEST(Sec6_BackfaceShare, FallsWithTheNumberOfFaces) {
     const double mean = sum / kSpheres;
     const double deviation = std::sqrt((squares - kSpheres * mean * mean) / (kSpheres - 1));
     const double error = deviation / std::sqrt(kSpheres);
-    RecordProperty(fmt::format("culled_percent_{}", faces), fmt::format("{:.1f}", 100 * mean));
-    RecordProperty(fmt::format("culled_percent_deviation_{}", faces), fmt::format("{:.1f}", 100 * deviation));
+    record("{:.1f}", 100 * mean, "culled_percent_{}", faces);
+    record("{:.1f}", 100 * deviation, "culled_percent_deviation_{}", faces);
     EXPECT_GT(mean_before - mean, 3 * std::hypot(error, error_before)) << faces;
     mean_before = mean, error_before = error;
   }
@@ -236,7 +213,6 @@ double processor_seconds() {
 // with its heuristics, pairing and crack repair, on one thread. The least of some frames: what is slower was
 // disturbed.
 TEST(Sec7_TenThousandTriangles, OfEightHundredFacesTakeLessThanATenthOfASecond) {
-  RecordProperty("claim", "C78");
   const auto mesh = data::bumpy_sphere(800, 1);
   fast::TessellatorOptions options{.threads = 1};
   fast::Tessellator<float> engine(mesh, options);
@@ -257,9 +233,9 @@ TEST(Sec7_TenThousandTriangles, OfEightHundredFacesTakeLessThanATenthOfASecond) 
     while (frame(), stats.triangles < 10'000 && pixels > 1) pixels /= std::sqrt(2.);
     ASSERT_GE(stats.triangles, 10'000) << key;
     for (int k = 0; k < 20; ++k) least = std::min(least, frame());
-    RecordProperty(fmt::format("pixels_{}", key), fmt::format("{:.0f}", pixels));
-    RecordProperty(fmt::format("triangles_{}", key), std::to_string(stats.triangles));
-    RecordProperty(fmt::format("milliseconds_{}", key), fmt::format("{:.2g}", 1e3 * least));
+    record("{:.0f}", pixels, "pixels_{}", key);
+    record("{}", stats.triangles, "triangles_{}", key);
+    record("{:.2g}", 1e3 * least, "milliseconds_{}", key);
     EXPECT_LT(least, .1) << key;
   }
 }
@@ -327,7 +303,6 @@ double share_of_pixels_off(StreamTessellator& engine, const fast::DepthOptions& 
 }
 
 TEST(Sec7_TemporalCoherence, LeavesMostOfAFrameAsItWas) {
-  RecordProperty("claim", "C86");
   StreamTessellator engine(data::bumpy_sphere(800, 1));
   fast::DepthOptions strategy{.strategy = fast::Strategy::kCombined};
   const Turn pairs = turn(engine, strategy, false), sticky = turn(engine, strategy, true);
@@ -335,13 +310,12 @@ TEST(Sec7_TemporalCoherence, LeavesMostOfAFrameAsItWas) {
   EXPECT_GT(sticky.kept(), pairs.kept());
   EXPECT_LT(sticky.kept(), 100) << "a turn changes something";
   EXPECT_LT(sticky.triangles, pairs.triangles) << "the finding says fewer";
-  RecordProperty("percent_kept", fmt::format("{:.0f}", pairs.kept()));
-  RecordProperty("percent_kept_sticky", fmt::format("{:.1f}", sticky.kept()));
-  RecordProperty("percent_fewer_triangles",
-                 fmt::format("{:.1f}", 100 * (1 - sticky.triangles / pairs.triangles)));
+  record("{:.0f}", pairs.kept(), "percent_kept");
+  record("{:.1f}", sticky.kept(), "percent_kept_sticky");
+  record("{:.1f}", 100 * (1 - sticky.triangles / pairs.triangles), "percent_fewer_triangles");
   for (const bool stay : {false, true})
-    RecordProperty(stay ? "percent_of_pixels_off_sticky" : "percent_of_pixels_off",
-                   fmt::format("{:.1f}", 100 * share_of_pixels_off(engine, strategy, stay, 40)));
+    record("{:.1f}", 100 * share_of_pixels_off(engine, strategy, stay, 40),
+           stay ? "percent_of_pixels_off_sticky" : "percent_of_pixels_off");
 }
 
 }  // namespace

@@ -13,11 +13,12 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "data/splitmix64.h"
-#include "fast/plan/depth.h"
 #include "fast/plan/pairing.h"
 #include "fast/plan/printed_rules.h"
 #include "fast/window/tessellator.h"
+#include "verify/claims/test_support/figures.h"
 #include "verify/claims/test_support/pairing_oracle.h"
+#include "verify/claims/test_support/scene.h"
 
 namespace limitcheck::verify {
 namespace {
@@ -25,9 +26,8 @@ namespace {
 using fast::PairingRule;
 using fast::Strategy;
 
-struct Scene {
-  explicit Scene(data::ControlMesh m) : mesh(std::move(m)), adjacency(mesh), heuristics(mesh, adjacency) {}
-  Scene(int faces, std::uint64_t seed) : Scene(data::bumpy_sphere(faces, seed)) {}
+struct PairingScene : Scene {
+  using Scene::Scene;
 
   std::vector<std::int32_t> depths(Strategy strategy, bool cull = false, std::uint64_t seed = 1) const {
     fast::DepthOptions options{
@@ -38,24 +38,15 @@ struct Scene {
                            bool prefer = true) const {
     return fast::pair_faces(adjacency, depth, fast::PrintedRules{rule, prefer});
   }
-
-  data::ControlMesh mesh;
-  fast::Adjacency adjacency;
-  fast::DepthHeuristics heuristics;
 };
-
-std::string text(double value) {
-  return fmt::format("{:.2f}", value);
-}
 
 constexpr int kSeeds = 10;
 constexpr int kSizes[] = {200, 800, 2000, 4000};
 
 TEST(Sec42_Pairing, AClosedMeshAlwaysHasAPairingWithoutSingletons) {
-  RecordProperty("claim", "C35");
   for (const int faces : {200, 800, 2000}) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      const Scene scene(faces, seed);
+      const PairingScene scene(faces, seed);
       EXPECT_EQ(fewest_singletons(scene.adjacency, scene.depths(Strategy::kUniform)), 0)
           << faces << " seed " << seed;
     }
@@ -64,8 +55,7 @@ TEST(Sec42_Pairing, AClosedMeshAlwaysHasAPairingWithoutSingletons) {
 
 // Random sets of free faces of every density: each of them is a state that some history could leave.
 TEST(Sec42_PrioritySets, PartitionTheFreeFacesOnlyAsAGreatestFixpoint) {
-  RecordProperty("claim", "C36");
-  const Scene scene(400, 1);
+  const PairingScene scene(400, 1);
   std::int64_t two_free = 0, without_set = 0, beside_s2 = 0;
   for (int percent = 50; percent <= 100; percent += 5) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -94,12 +84,11 @@ TEST(Sec42_PrioritySets, PartitionTheFreeFacesOnlyAsAGreatestFixpoint) {
   EXPECT_GT(two_free, 1000);
   EXPECT_GT(without_set, 0) << "as a least fixpoint the definitions leave faces without a set";
   EXPECT_EQ(beside_s2, 0) << "a face with two free neighbours is never beside one of S2";
-  RecordProperty("faces_without_set_as_least_fixpoint", std::to_string(without_set));
+  record("{}", without_set, "faces_without_set_as_least_fixpoint");
 }
 
 TEST(Sec42_Boundaries, TrianglesMayHaveOneOrTwoNeighboursButVerticesNeverHaveFewerThanTwo) {
-  RecordProperty("claim", "C37");
-  const Scene scene(data::wheel(6, 3));
+  const PairingScene scene(data::wheel(6, 3));
   std::vector<int> with(4, 0);
   for (std::int32_t f = 0; f < scene.adjacency.face_count(); ++f) {
     int neighbours = 0;
@@ -113,8 +102,7 @@ TEST(Sec42_Boundaries, TrianglesMayHaveOneOrTwoNeighboursButVerticesNeverHaveFew
 
 // "While S0 .. S3 are not empty", taken at its word, would stop at once: in a closed mesh three of them are.
 TEST(Sec42_Loop, RunsWhileNotAllSetsAreEmptyAndEndsWithinAsManyRoundsAsFaces) {
-  RecordProperty("claim", "C38");
-  const Scene scene(800, 1);
+  const PairingScene scene(800, 1);
   const auto set = sets_by_definition(scene.adjacency, std::vector<bool>(800, true));
   EXPECT_EQ(std::count(set.begin(), set.end(), 3), 800) << "S0, S1 and S2 are empty in the beginning";
   for (const PairingRule rule : {PairingRule::kCorrected, PairingRule::kPrinted}) {
@@ -126,9 +114,8 @@ TEST(Sec42_Loop, RunsWhileNotAllSetsAreEmptyAndEndsWithinAsManyRoundsAsFaces) {
 
 // The judge knows no queues: it computes all sets anew before every round.
 TEST(Sec42_Step3, InTheCorrectedOrderTheSetsAreAlwaysThoseOfTheirDefinitions) {
-  RecordProperty("claim", "C39, C40");
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Scene scene(400, seed);
+    const PairingScene scene(400, seed);
     for (const auto& depth : {scene.depths(Strategy::kUniform), scene.depths(Strategy::kRandom),
                               scene.depths(Strategy::kCombined), scene.depths(Strategy::kCombined, true)}) {
       EXPECT_EQ(first_violation(scene.adjacency, depth, scene.pair(depth, PairingRule::kCorrected)), "");
@@ -137,9 +124,8 @@ TEST(Sec42_Step3, InTheCorrectedOrderTheSetsAreAlwaysThoseOfTheirDefinitions) {
 }
 
 TEST(Sec42_Step3, InThePrintedOrderTheyAreNot) {
-  RecordProperty("claim", "C39");
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Scene scene(400, seed);
+    const PairingScene scene(400, seed);
     const auto depth = scene.depths(Strategy::kUniform);
     EXPECT_NE(first_violation(scene.adjacency, depth, scene.pair(depth, PairingRule::kPrinted)), "");
   }
@@ -148,9 +134,9 @@ TEST(Sec42_Step3, InThePrintedOrderTheyAreNot) {
 // And the printed order is kept where it is asked for: the judge goes over all faces after each pair. Open
 // meshes and culled faces, because in a closed mesh S2 is empty in the beginning and stays so.
 TEST(Sec42_Step3, IsCarriedOutAsPrintedWhereThatIsAskedFor) {
-  RecordProperty("claim", "C39");
-  for (const Scene& scene : {Scene(400, 1), Scene(400, 2), Scene(data::wheel(6, 3)), Scene(data::holes()),
-                             Scene(data::wheel(7, 6))})
+  for (const PairingScene& scene :
+       {PairingScene(400, 1), PairingScene(400, 2), PairingScene(data::wheel(6, 3)),
+        PairingScene(data::holes()), PairingScene(data::wheel(7, 6))})
     for (const auto& depth : {scene.depths(Strategy::kUniform), scene.depths(Strategy::kRandom),
                               scene.depths(Strategy::kCombined), scene.depths(Strategy::kCombined, true)})
       EXPECT_EQ(first_violation(scene.adjacency, depth, scene.pair(depth, PairingRule::kPrinted),
@@ -160,10 +146,9 @@ TEST(Sec42_Step3, IsCarriedOutAsPrintedWhereThatIsAskedFor) {
 
 // A face beside both members of a pair, as at a vertex of valence three, falls from S3 to S0 at once.
 TEST(Sec42_Step3, AFaceBesideBothMembersGoesFromS3ToS0) {
-  RecordProperty("claim", "C40");
   std::int64_t cases = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Scene scene(800, seed);
+    const PairingScene scene(800, seed);
     const auto depth = scene.depths(Strategy::kUniform);
     const auto result = scene.pair(depth, PairingRule::kCorrected);
     std::vector<bool> free(800, true);
@@ -191,22 +176,21 @@ TEST(Sec42_Step3, AFaceBesideBothMembersGoesFromS3ToS0) {
 // the standard error of a mean is about a tenth of it at 4000 faces; at 200 one pair of singletons more or
 // less is a whole percent of one mesh.
 TEST(Sec42_Singletons, AreUnderOnePercentWithTheCorrectedRuleAndTwiceAsManyAndMoreWithThePrintedOne) {
-  RecordProperty("claim", "C39, C41");
   for (const int faces : kSizes) {
     for (const auto& [name, strategy] :
          {std::pair{"uniform", Strategy::kUniform}, std::pair{"random", Strategy::kRandom},
           std::pair{"view", Strategy::kCombined}}) {
       double corrected = 0, printed = 0;
       for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-        const Scene scene(faces, seed);
+        const PairingScene scene(faces, seed);
         const auto depth = scene.depths(strategy, false, seed);
         corrected += static_cast<double>(scene.pair(depth, PairingRule::kCorrected).singletons);
         printed += static_cast<double>(scene.pair(depth, PairingRule::kPrinted).singletons);
       }
       const double percent = 100. / (faces * kSeeds);
       const std::string key = fmt::format("{}_{}", name, faces);
-      RecordProperty("percent_corrected_" + key, text(percent * corrected));
-      RecordProperty("percent_printed_" + key, text(percent * printed));
+      record("{:.2f}", percent * corrected, "percent_corrected_{}", key);
+      record("{:.2f}", percent * printed, "percent_printed_{}", key);
       EXPECT_LE(percent * corrected, faces == 200 ? 1.2 : .7) << key;
       EXPECT_GE(percent * printed, 1.0) << key;
       EXPECT_LE(percent * printed, 3.0) << key;
@@ -221,11 +205,10 @@ TEST(Sec42_Singletons, AreUnderOnePercentWithTheCorrectedRuleAndTwiceAsManyAndMo
 // Culled faces left out, the rest has holes and an optimum
 // above zero. Shares of all faces and of the visible ones.
 TEST(Sec42_Singletons, WithoutTheCulledFacesStayNearTheOptimumOfAMaximumMatching) {
-  RecordProperty("claim", "C41");
   for (const int faces : kSizes) {
     double corrected = 0, printed = 0, optimum = 0, visible = 0;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const Scene scene(faces, seed);
+      const PairingScene scene(faces, seed);
       const auto depth = scene.depths(Strategy::kCombined, true);
       const auto result = scene.pair(depth, PairingRule::kCorrected);
       const auto best = fewest_singletons(scene.adjacency, depth);
@@ -237,10 +220,10 @@ TEST(Sec42_Singletons, WithoutTheCulledFacesStayNearTheOptimumOfAMaximumMatching
       visible += static_cast<double>(faces - result.culled);
     }
     const std::string key = std::to_string(faces);
-    RecordProperty("percent_of_visible_corrected_" + key, text(100 * corrected / visible));
-    RecordProperty("percent_of_visible_printed_" + key, text(100 * printed / visible));
-    RecordProperty("percent_of_visible_optimum_" + key, text(100 * optimum / visible));
-    RecordProperty("percent_of_all_corrected_" + key, text(100 * corrected / (faces * kSeeds)));
+    record("{:.2f}", 100 * corrected / visible, "percent_of_visible_corrected_{}", key);
+    record("{:.2f}", 100 * printed / visible, "percent_of_visible_printed_{}", key);
+    record("{:.2f}", 100 * optimum / visible, "percent_of_visible_optimum_{}", key);
+    record("{:.2f}", 100 * corrected / (faces * kSeeds), "percent_of_all_corrected_{}", key);
     EXPECT_LE(100 * (corrected - optimum) / visible, 1.6) << key << ": more than the optimum";
     EXPECT_GT(printed, corrected) << key;
   }
@@ -253,9 +236,8 @@ double triangles(const std::vector<std::int32_t>& depth) {
 }
 
 TEST(Sec42_Depths, BothMembersGetTheLargerAndEqualOnesArePreferred) {
-  RecordProperty("claim", "C42");
   for (const int faces : {200, 800, 4000}) {
-    const Scene scene(faces, 1);
+    const PairingScene scene(faces, 1);
     const std::string key = fmt::format("_{}", faces);
     for (const auto& depth : {scene.depths(Strategy::kRandom), scene.depths(Strategy::kCombined, true)}) {
       const auto result = scene.pair(depth, PairingRule::kCorrected);
@@ -270,12 +252,12 @@ TEST(Sec42_Depths, BothMembersGetTheLargerAndEqualOnesArePreferred) {
     const double with = triangles(scene.pair(random, PairingRule::kCorrected).depth) / triangles(random);
     const double without =
         triangles(scene.pair(random, PairingRule::kCorrected, false).depth) / triangles(random);
-    RecordProperty("triangles_random" + key, text(with));
-    RecordProperty("triangles_random_without_preference" + key, text(without));
+    record("{:.2f}", with, "triangles_random{}", key);
+    record("{:.2f}", without, "triangles_random_without_preference{}", key);
     EXPECT_LT(with, without) << faces;
     const auto view = scene.depths(Strategy::kCombined, true);
     const double view_cost = triangles(scene.pair(view, PairingRule::kCorrected).depth) / triangles(view);
-    RecordProperty("triangles_view" + key, text(view_cost));
+    record("{:.2f}", view_cost, "triangles_view{}", key);
     EXPECT_LT(view_cost, with) << "neighbours have similar depths in a view";
     EXPECT_GE(view_cost, 1);
   }
@@ -283,9 +265,8 @@ TEST(Sec42_Depths, BothMembersGetTheLargerAndEqualOnesArePreferred) {
 
 // Were culled faces to take part with depth -1 they would be drawn with their partners. They do not.
 TEST(Sec42_Depths, CulledFacesTakingPartWouldBeRevived) {
-  RecordProperty("claim", "C42");
   for (const int faces : {200, 800, 4000}) {
-    const Scene scene(faces, 1);
+    const PairingScene scene(faces, 1);
     auto depth = scene.depths(Strategy::kCombined, true);
     const auto ours = scene.pair(depth, PairingRule::kCorrected);
     const auto culled = std::count(depth.begin(), depth.end(), fast::kCulled);
@@ -293,8 +274,8 @@ TEST(Sec42_Depths, CulledFacesTakingPartWouldBeRevived) {
     for (std::int32_t& d : depth) ++d;  // now every face takes part, the culled ones as the shallowest
     const auto all = scene.pair(depth, PairingRule::kCorrected);
     const auto revived = culled - std::count(all.depth.begin(), all.depth.end(), 0);
-    RecordProperty(fmt::format("percent_revived_{}", faces),
-                   text(100. * static_cast<double>(revived) / static_cast<double>(culled)));
+    record("{:.2f}", 100. * static_cast<double>(revived) / static_cast<double>(culled), "percent_revived_{}",
+           faces);
     EXPECT_GT(revived, 0);
   }
 }
@@ -315,7 +296,6 @@ PerTriangle per_triangle(const data::ControlMesh& mesh, int depth) {
 // "Subdividing a pair of adjacent triangles at a time is more efficient": the same faces in pairs, and cut apart so
 // that each is alone.
 TEST(Sec4_Pairs, TakeFewerPointsVerticesAndStripsThanTrianglesAlone) {
-  RecordProperty("claim", "C88");
   const auto mesh = data::bumpy_sphere(200, 1);
   data::ControlMesh apart;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
@@ -325,14 +305,13 @@ TEST(Sec4_Pairs, TakeFewerPointsVerticesAndStripsThanTrianglesAlone) {
   }
   for (const int depth : {3, 5}) {
     const PerTriangle pairs = per_triangle(mesh, depth), alone = per_triangle(apart, depth);
-    const auto record = [&](const char* what, double ratio) {
-      RecordProperty(fmt::format("{}_of_pairs_over_alone_at_depth_{}", what, depth),
-                     fmt::format("{:.2f}", ratio));
+    const auto note = [&](const char* what, double ratio) {
+      record("{:.2f}", ratio, "{}_of_pairs_over_alone_at_depth_{}", what, depth);
       EXPECT_LT(ratio, 1) << what << " " << depth;
     };
-    record("points", pairs.points / alone.points);
-    record("vertices", pairs.vertices / alone.vertices);
-    record("strips", pairs.strips / alone.strips);
+    note("points", pairs.points / alone.points);
+    note("vertices", pairs.vertices / alone.vertices);
+    note("strips", pairs.strips / alone.strips);
   }
 }
 
@@ -340,7 +319,6 @@ TEST(Sec4_Pairs, TakeFewerPointsVerticesAndStripsThanTrianglesAlone) {
 // faces without partner, which are evaluated and not shown, of all points. A problem would be what shows in times, from
 // some per cent on.
 TEST(Sec43_DummyPartners, AreAboutOneInAHundredPoints) {
-  RecordProperty("claim", "C89");
   for (const int faces : {200, 800, 2000, 4000}) {
     const auto mesh = data::bumpy_sphere(faces, 1);
     fast::Tessellator<float> engine(mesh);
@@ -354,9 +332,8 @@ TEST(Sec43_DummyPartners, AreAboutOneInAHundredPoints) {
         if (grid.face1 < 0) wasted += steps * (steps + 1) / 2;
       }
       const double percent = 100 * wasted / all;
-      RecordProperty(fmt::format("percent_of_points_of_dummies_{}_{}",
-                                 strategy == fast::Strategy::kUniform ? "uniform" : "combined", faces),
-                     fmt::format("{:.2f}", percent));
+      record("{:.2f}", percent, "percent_of_points_of_dummies_{}_{}",
+             strategy == fast::Strategy::kUniform ? "uniform" : "combined", faces);
       EXPECT_LT(percent, 2) << faces;
     }
   }

@@ -14,6 +14,7 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "fast/window/tessellator.h"
+#include "verify/claims/test_support/figures.h"
 #include "verify/picture/canvas.h"
 #include "verify/picture/judge.h"
 
@@ -76,14 +77,9 @@ std::string underscored(Strategy strategy) {
   return text;
 }
 
-std::string text(double value) {
-  return fmt::format("{:.3g}", value);
-}
-
 // "Visible artifacts, however, have not been observed in practice": the same depths with and without culling,
 // from twelve sides. Without culling faces nothing is missing, so all that is, is due to the rule.
 TEST(Sec41_Culling, TakesVisiblePiecesOutOfTheSilhouette) {
-  RecordProperty("claim", "C31");
   std::map<int, Difference> worst;
   for (const int faces : kFaces) {
     const auto mesh = data::bumpy_sphere(faces, 1);
@@ -107,10 +103,10 @@ TEST(Sec41_Culling, TakesVisiblePiecesOutOfTheSilhouette) {
       most.contour = std::max(most.contour, d.contour);
       most.share = std::max(most.share, d.share);
     }
-    RecordProperty(fmt::format("largest_gap_in_pixels_{}", faces), std::to_string(most.largest_gap));
-    RecordProperty(fmt::format("contour_off_by_pixels_{}", faces), text(most.contour));
-    RecordProperty(fmt::format("views_of_12_with_a_gap_of_10_pixels_{}", faces), views_with_gaps);
-    RecordProperty(fmt::format("percent_of_pixels_wrong_at_most_{}", faces), text(100 * most.share));
+    record("{}", most.largest_gap, "largest_gap_in_pixels_{}", faces);
+    record("{:.3g}", most.contour, "contour_off_by_pixels_{}", faces);
+    record("{}", views_with_gaps, "views_of_12_with_a_gap_of_10_pixels_{}", faces);
+    record("{:.3g}", 100 * most.share, "percent_of_pixels_wrong_at_most_{}", faces);
   }
   // A hole of twenty by twenty pixels is obvious; of the smallest sphere none is missing.
   EXPECT_GT(worst[800].largest_gap, 400);
@@ -126,13 +122,12 @@ double needed(const std::vector<Seen>& settings, Measure measure, double error) 
 // "Uniform tessellation behaves much worse than adaptive": in triangles, at equal depth and at equal error.
 // What the paper compares are frames per second, against a uniform depth that it does not name.
 TEST(Sec6_Uniform, NeedsMoreTrianglesAtEqualSettingsButFewerForTheWorstPixels) {
-  RecordProperty("claim", "C74");
   for (const int faces : kFaces) {
     const Seen& three = Views::uniform(faces, 3);
     for (const Strategy strategy : {Strategy::kProjectSphere, Strategy::kCombined}) {
       const std::string who = underscored(strategy);
       const double ratio = three.triangles / Views::adaptive(faces, strategy, 60).triangles;
-      RecordProperty(fmt::format("triangles_of_uniform_3_over_{}_60_px_{}", who, faces), text(ratio));
+      record("{:.3g}", ratio, "triangles_of_uniform_3_over_{}_60_px_{}", who, faces);
       if (strategy == Strategy::kProjectSphere) {
         EXPECT_GT(ratio, 2) << faces;
       }
@@ -143,9 +138,8 @@ TEST(Sec6_Uniform, NeedsMoreTrianglesAtEqualSettingsButFewerForTheWorstPixels) {
         for (const auto& [measure, value] : kMeasures) {
           const double error = three.difference.*value;
           const double same = three.triangles / needed(settings, value, error);
-          RecordProperty(fmt::format("uniform_3_over_{}{}_at_its_{}_error_{}", who,
-                                     repair == fast::Repair::kFan ? "" : "_stitched", measure, faces),
-                         text(same));
+          record("{:.3g}", same, "uniform_3_over_{}{}_at_its_{}_error_{}", who,
+                 repair == fast::Repair::kFan ? "" : "_stitched", measure, faces);
           if (repair == fast::Repair::kFan && value == &Difference::percentile_99) {
             EXPECT_LT(same, .5) << faces << " " << who;
           }
@@ -161,16 +155,13 @@ TEST(Sec6_Uniform, NeedsMoreTrianglesAtEqualSettingsButFewerForTheWorstPixels) {
 // "This strategy preserves object detail perceptibly better than the project-sphere heuristic alone": at the
 // same settings, where it has more triangles, and at as many triangles.
 TEST(Sec6_Combined, LooksBetterAtEqualSettingsAndAtEqualTrianglesOnlyByTheMean) {
-  RecordProperty("claim", "C76");
   for (const int faces : kFaces) {
     const Seen &combined = Views::adaptive(faces, Strategy::kCombined, 60),
                &sphere = Views::adaptive(faces, Strategy::kProjectSphere, 60);
-    RecordProperty(fmt::format("percent_of_pixels_off_project_sphere_60_px_{}", faces),
-                   text(100 * sphere.difference.share));
-    RecordProperty(fmt::format("percent_of_pixels_off_combined_60_px_{}", faces),
-                   text(100 * combined.difference.share));
-    RecordProperty(fmt::format("triangles_of_combined_over_project_sphere_{}", faces),
-                   text(combined.triangles / sphere.triangles));
+    record("{:.3g}", 100 * sphere.difference.share, "percent_of_pixels_off_project_sphere_60_px_{}", faces);
+    record("{:.3g}", 100 * combined.difference.share, "percent_of_pixels_off_combined_60_px_{}", faces);
+    record("{:.3g}", combined.triangles / sphere.triangles, "triangles_of_combined_over_project_sphere_{}",
+           faces);
     EXPECT_LT(combined.difference.share, sphere.difference.share) << faces;
     for (const auto& [measure, value] : kMeasures) {
       std::vector<std::pair<double, double>> points;
@@ -179,9 +170,8 @@ TEST(Sec6_Combined, LooksBetterAtEqualSettingsAndAtEqualTrianglesOnlyByTheMean) 
         points.emplace_back(s.triangles, s.difference.*value);
       }
       const double ratio = on_curve(points, combined.triangles).value_or(0) / (combined.difference.*value);
-      RecordProperty(
-          fmt::format("{}_error_of_project_sphere_over_combined_at_equal_triangles_{}", measure, faces),
-          text(ratio));
+      record("{:.3g}", ratio, "{}_error_of_project_sphere_over_combined_at_equal_triangles_{}", measure,
+             faces);
       // The mean is better and the median worse: which of them counts, the text does not say.
       if (value == &Difference::mean) {
         EXPECT_GT(ratio, 1) << faces;
@@ -196,20 +186,16 @@ TEST(Sec6_Combined, LooksBetterAtEqualSettingsAndAtEqualTrianglesOnlyByTheMean) 
 // "No perceivable difference between adaptive and high-depth uniform tessellations": pixels that are off by
 // more than 4 of 255, from the coarse settings of our tables to fine ones.
 TEST(Sec7_Adaptive, LooksLikeDeepUniformDepthAtFineSettingsOnly) {
-  RecordProperty("claim", "C79");
   for (const int faces : kFaces) {
     std::map<double, Seen> by;
     for (const double pixels : kPixels) {
       const Seen& s = by[pixels] = Views::adaptive(faces, Strategy::kCombined, pixels);
-      RecordProperty(fmt::format("percent_of_pixels_off_combined_{}_px_{}", pixels, faces),
-                     text(100 * s.difference.share));
-      RecordProperty(fmt::format("triangles_combined_{}_px_{}", pixels, faces),
-                     fmt::format("{:.0f}", s.triangles));
+      record("{:.3g}", 100 * s.difference.share, "percent_of_pixels_off_combined_{}_px_{}", pixels, faces);
+      record("{:.0f}", s.triangles, "triangles_combined_{}_px_{}", pixels, faces);
     }
     const Seen& four = Views::uniform(faces, 4);
-    RecordProperty(fmt::format("percent_of_pixels_off_uniform_4_{}", faces),
-                   text(100 * four.difference.share));
-    RecordProperty(fmt::format("triangles_uniform_4_{}", faces), fmt::format("{:.0f}", four.triangles));
+    record("{:.3g}", 100 * four.difference.share, "percent_of_pixels_off_uniform_4_{}", faces);
+    record("{:.0f}", four.triangles, "triangles_uniform_4_{}", faces);
     EXPECT_GT(by[60].difference.share, .05) << faces;
     EXPECT_GT(by[15].difference.share, .02) << faces;
     EXPECT_LT(by[7.5].difference.share, .01) << faces;
@@ -222,7 +208,6 @@ TEST(Sec7_Adaptive, LooksLikeDeepUniformDepthAtFineSettingsOnly) {
 // "Completely front-facing patches do not need a high-resolution tessellation": where twice the angle costs less in
 // the picture for each triangle that it saves, at vertices that face the viewer or at those on the silhouette.
 TEST(Sec41_ConeAngle, OfFrontVerticesAndOfTheSilhouetteInThePicture) {
-  RecordProperty("claim", "C90");
   for (const int faces : kFaces) {
     const auto seen = [&](double front, double silhouette) {
       fast::DepthOptions options = adaptive(Strategy::kCurvature, 30);
@@ -230,13 +215,12 @@ TEST(Sec41_ConeAngle, OfFrontVerticesAndOfTheSilhouetteInThePicture) {
       return Views::judge(faces).see(options);
     };
     const Seen fine = seen(15, 15), front = seen(30, 15), silhouette = seen(15, 30);
-    const auto record = [&](const char* name, const Seen& s) {
-      RecordProperty(fmt::format("{}_percent_of_triangles_{}", name, faces),
-                     text(100 * s.triangles / fine.triangles));
-      RecordProperty(fmt::format("{}_mean_error_{}", name, faces), text(s.difference.mean));
-      RecordProperty(fmt::format("{}_contour_{}", name, faces), text(s.difference.contour));
+    const auto note = [&](const char* name, const Seen& s) {
+      record("{:.3g}", 100 * s.triangles / fine.triangles, "{}_percent_of_triangles_{}", name, faces);
+      record("{:.3g}", s.difference.mean, "{}_mean_error_{}", name, faces);
+      record("{:.3g}", s.difference.contour, "{}_contour_{}", name, faces);
     };
-    record("fine", fine), record("coarse_front", front), record("coarse_silhouette", silhouette);
+    note("fine", fine), note("coarse_front", front), note("coarse_silhouette", silhouette);
     const auto price = [&](const Seen& s) {
       return (s.difference.mean - fine.difference.mean) / (fine.triangles - s.triangles) * 1e4;
     };
@@ -248,17 +232,16 @@ TEST(Sec41_ConeAngle, OfFrontVerticesAndOfTheSilhouetteInThePicture) {
 // "The increasing curvature takes over and prevents the project-sphere heuristic from introducing artifacts": pixels
 // that are off, of either strategy at the same setting, as the number of faces grows.
 TEST(Sec6_Combined, KeepsFromSomeArtifactsAsCurvatureGrows) {
-  RecordProperty("claim", "C91");
   double before = 1;
   for (const int faces : kFaces) {
     const Difference sphere = Views::adaptive(faces, Strategy::kProjectSphere, 60).difference,
                      combined = Views::adaptive(faces, Strategy::kCombined, 60).difference;
-    const auto record = [&](const char* name, const Difference& d) {
-      RecordProperty(fmt::format("percent_of_pixels_off_{}_{}", name, faces), text(100 * d.share));
-      RecordProperty(fmt::format("contour_off_by_pixels_{}_{}", name, faces), text(d.contour));
-      RecordProperty(fmt::format("mean_error_{}_{}", name, faces), text(d.mean));
+    const auto note = [&](const char* name, const Difference& d) {
+      record("{:.3g}", 100 * d.share, "percent_of_pixels_off_{}_{}", name, faces);
+      record("{:.3g}", d.contour, "contour_off_by_pixels_{}_{}", name, faces);
+      record("{:.3g}", d.mean, "mean_error_{}_{}", name, faces);
     };
-    record("project_sphere", sphere), record("combined", combined);
+    note("project_sphere", sphere), note("combined", combined);
     EXPECT_LT(combined.share / sphere.share, before) << faces;
     EXPECT_GT(combined.share, .05) << "not all: " << faces;
     before = combined.share / sphere.share;

@@ -25,6 +25,7 @@
 #include "reference/number/number_exact.h"
 #include "reference/surface/surface.h"
 #include "verify/audit/audit.h"
+#include "verify/claims/test_support/figures.h"
 #include "verify/evidence/vector.h"
 #include "verify/host/host.h"
 #include "verify/subject/lattice.h"
@@ -40,7 +41,6 @@ double distance(const V& a, const V& b) {
 }
 
 TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
-  RecordProperty("claim", "C06");
   for (const std::string& shape : data::stock_shapes()) {
     const auto mesh = data::named_mesh(shape);
     EXPECT_TRUE(data::validate(mesh).empty()) << shape;
@@ -79,8 +79,8 @@ TEST(Sec3_ControlMesh, MayBeAnyManifoldWithOrWithoutBoundaryAndNothingElse) {
     EXPECT_EQ(t.triangle_count(), static_cast<std::int64_t>(2 * mesh.faces.corners().size())) << seed;
     EXPECT_TRUE(t.defects().empty()) << seed;
   }
-  RecordProperty("random_manifolds", kRandom);
-  RecordProperty("of_them_with_boundary", open);
+  record("{}", kRandom, "random_manifolds");
+  record("{}", open, "of_them_with_boundary");
   EXPECT_GT(open, 0);
   EXPECT_LT(open, kRandom);
   data::ControlMesh fin = data::triangle_pair();  // a third face on the common edge
@@ -116,19 +116,16 @@ void expect_both_schemes(const lc_subject* subject) {
 }
 
 TEST(Sec4_Recursion, ServesBothSchemesByOtherRules) {
-  RecordProperty("claim", "C21");
   expect_both_schemes(lc_subject_naive());
 }
 
 // Depths, cracks, strips, fans, threads are the same program for both; the window has rows above and below,
 // and corners, of either.
 TEST(Sec4_SlidingWindow, ServesBothSchemesByOtherRules) {
-  RecordProperty("claim", "C21");
   expect_both_schemes(lc_subject_sliding_window());
 }
 
 TEST(Sec3_SubFaces, ShareNoCornerPositionWithTheirParentUnlessAVertexIsTheMeanOfItsRing) {
-  RecordProperty("claim", "C07");
   const auto mesh = data::bumpy_sphere(800, 1);
   const auto finer = reference::refine<double>(mesh, 1);
   double nearest = 1e300;
@@ -136,7 +133,7 @@ TEST(Sec3_SubFaces, ShareNoCornerPositionWithTheirParentUnlessAVertexIsTheMeanOf
     const auto& p = mesh.positions[v];
     nearest = std::min(nearest, distance({p[0], p[1], p[2]}, finer.positions()[v]));
   }
-  RecordProperty("shortest_move", fmt::format("{:.1e}", nearest));
+  record("{:.1e}", nearest, "shortest_move");
   EXPECT_GT(nearest, 1e-6);
   // The counterexample: a flat regular sheet, where each vertex inside is the mean of its six neighbours.
   data::ControlMesh flat = data::sheet(4, 4);
@@ -151,7 +148,6 @@ TEST(Sec3_SubFaces, ShareNoCornerPositionWithTheirParentUnlessAVertexIsTheMeanOf
 }
 
 TEST(Sec3_LimitSurface, DependsOnTheDiagonalsThatTriangulateTheQuads) {
-  RecordProperty("claim", "C09");
   // A bumpy grid of 4 x 4 quads, every one cut along the one or the other diagonal.
   const auto grid = [](int diagonal) {
     data::ControlMesh mesh;
@@ -181,13 +177,12 @@ TEST(Sec3_LimitSurface, DependsOnTheDiagonalsThatTriangulateTheQuads) {
   double farthest = 0;
   for (std::int32_t v = 0; v < 25; ++v)
     farthest = std::max(farthest, distance(corner(first, one, v), corner(second, other, v)));
-  RecordProperty("largest_distance_of_a_limit_vertex_in_edge_lengths", fmt::format("{:.3f}", farthest));
+  record("{:.3f}", farthest, "largest_distance_of_a_limit_vertex_in_edge_lengths");
   EXPECT_GT(farthest, 0.05);
 }
 
 // Literal reading of "all indices modulo n" with the ring numbered 1..n and the centre 0: v_n becomes v_0.
 TEST(Sec31_Indices, ModuloNWouldMapTheLastNeighbourToTheCentre) {
-  RecordProperty("claim", "C13");
   for (const int n : {3, 4, 5, 6, 7, 20}) {
     const auto mesh = data::wheel(n, 3);
     const reference::Topology topology(mesh.positions.size(), mesh.faces);
@@ -218,7 +213,6 @@ TEST(Sec31_Indices, ModuloNWouldMapTheLastNeighbourToTheCentre) {
 
 // The denominators of (4) and (5): exactly zero; in floating point whatever rounding leaves.
 TEST(Eq4And5_Denominators, AreZeroAndTheirRoundingFlipsTheNormalAtRegularVertices) {
-  RecordProperty("claim", "C16");
   using Number = reference::Decimal50;
   int exactly_zero = 0, opposite = 0;
   for (long n = 3; n <= 50; ++n) {
@@ -239,8 +233,8 @@ TEST(Eq4And5_Denominators, AreZeroAndTheirRoundingFlipsTheNormalAtRegularVertice
       EXPECT_LT(d1 * d2, 0) << "u1 x u2 divided by both: the normal points inside";
     }
   }
-  RecordProperty("valences_3_to_50_with_a_denominator_exactly_zero", exactly_zero);
-  RecordProperty("valences_3_to_50_with_flipped_normal", opposite);
+  record("{}", exactly_zero, "valences_3_to_50_with_a_denominator_exactly_zero");
+  record("{}", opposite, "valences_3_to_50_with_flipped_normal");
   EXPECT_GT(opposite, 0);
 }
 
@@ -330,11 +324,10 @@ double look_at_all_edges(const data::ControlMesh& mesh) {
 }
 
 TEST(Sec2_SharpEdges, StartAndEndInAnOtherwiseSmoothSurface) {
-  RecordProperty("claim", "C85");
   const double triangles = look_at_all_edges(data::named_mesh("bumpy-crease:200"));
   const double quads = look_at_all_edges(data::named_mesh("open-crease"));
-  RecordProperty("degrees_between_the_sides_loop", fmt::format("{:.0f}", triangles));
-  RecordProperty("degrees_between_the_sides_catmull_clark", fmt::format("{:.0f}", quads));
+  record("{:.0f}", triangles, "degrees_between_the_sides_loop");
+  record("{:.0f}", quads, "degrees_between_the_sides_catmull_clark");
 }
 
 }  // namespace

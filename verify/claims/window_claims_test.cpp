@@ -13,6 +13,7 @@
 #include "data/generators/bumpy_sphere.h"
 #include "data/shapes.h"
 #include "reference/loop/recursion.h"
+#include "verify/claims/test_support/figures.h"
 
 namespace limitcheck::fast {
 
@@ -89,7 +90,6 @@ std::int64_t power(int base, int exponent) {
 constexpr int kValences[] = {6, 12, 50, 200};
 
 TEST(Sec43_Space, IsTheSumOverAllLevelsFromZeroToM) {
-  RecordProperty("claim", "C48 C49");
   for (const int n_max : kValences) {
     for (int m = 0; m <= 7; ++m) {
       const auto held = static_cast<std::int64_t>(SlidingWindow<float>(m, n_max).allocated_vectors());
@@ -106,7 +106,6 @@ TEST(Sec43_Space, IsTheSumOverAllLevelsFromZeroToM) {
 }
 
 TEST(Sec43_Time, TheRowPartIsHalfOfThePrintedSumLessALevel) {
-  RecordProperty("claim", "C52 C53");
   for (const auto& [name, mesh] : {std::pair{"torus", data::torus(5, 6)},
                                    {"tetrahedron", data::tetrahedron()},
                                    {"bipyramid 20", data::bipyramid(20)},
@@ -139,7 +138,6 @@ TEST(Sec43_Time, TheRowPartIsHalfOfThePrintedSumLessALevel) {
 }
 
 TEST(Sec43_Time, TheCountedVectorsAreTheStoredVectors) {
-  RecordProperty("claim", "C53");
   for (int m = 0; m <= 6; ++m) {
     const CountedRun r = run<CountingWindow>(data::torus(5, 6), m);
     // every vector is three numbers; a limit point is two vectors; level 0 is filled with 4 rings, 4 corners,
@@ -154,7 +152,6 @@ TEST(Sec43_Time, TheCountedVectorsAreTheStoredVectors) {
 // "Computes vertices anew": three for each triangle, of which a strip sends one; or keeps them all, four times as
 // many with each level, where a window holds twice as many.
 TEST(Sec4_Recursion, ComputesVerticesAnewAndSendsSingleTriangles) {
-  RecordProperty("claim", "C18");
   const data::ControlMesh mesh = data::icosahedron();
   const reference::NaiveSubdivider<double> naive(mesh);
   const std::int32_t other = Adjacency(mesh).twin(0) / 3;  // with face 0 the pair of half-edge 0
@@ -174,10 +171,8 @@ TEST(Sec4_Recursion, ComputesVerticesAnewAndSendsSingleTriangles) {
     const double strips = static_cast<double>(run<CountingWindow>(mesh, m).counts.strips) *
                           (2 * static_cast<double>(k) + 2) / static_cast<double>(sent);
     if (m == 3 || m == 5) {
-      RecordProperty(fmt::format("times_each_vertex_is_computed_at_depth_{}", m),
-                     fmt::format("{:.2f}", anew));
-      RecordProperty(fmt::format("strips_send_of_single_triangles_at_depth_{}", m),
-                     fmt::format("{:.3f}", strips));
+      verify::record("{:.2f}", anew, "times_each_vertex_is_computed_at_depth_{}", m);
+      verify::record("{:.3f}", strips, "strips_send_of_single_triangles_at_depth_{}", m);
     }
     EXPECT_LT(strips, .51);
     const auto window = [](int depth) {
@@ -189,7 +184,6 @@ TEST(Sec4_Recursion, ComputesVerticesAnewAndSendsSingleTriangles) {
 }
 
 TEST(Sec43_Strips, AreTwoToTheMOfTwiceTwoToTheMTriangles) {
-  RecordProperty("claim", "C20 C50");
   for (int m = 0; m <= 7; ++m) {
     const CountedRun r = run<CountingWindow>(data::icosahedron(), m);
     EXPECT_EQ(r.counts.strips, power(2, m));
@@ -202,7 +196,6 @@ TEST(Sec43_Strips, AreTwoToTheMOfTwiceTwoToTheMTriangles) {
 }
 
 TEST(Sec43_LimitPoints, AreEvaluatedTwiceUnlessRowsAreCarriedOver) {
-  RecordProperty("claim", "C51");
   for (int m = 0; m <= 7; ++m) {
     const std::int64_t k = power(2, m);
     EXPECT_EQ(run<CountingWindow>(data::octahedron(), m).counts.limit_points, 2 * k * (k + 1));
@@ -215,7 +208,6 @@ TEST(Sec43_LimitPoints, AreEvaluatedTwiceUnlessRowsAreCarriedOver) {
 // The corrected formulas one after the other: what the pseudo-code does (C53), and that by the number of limit
 // points (C54), which is what has to be linear (C55).
 TEST(Sec43_Time, IsLinearInTheLimitPointsWithTheFourOutsideTheSquare) {
-  RecordProperty("claim", "C54 C55");
   for (int m = 0; m <= 7; ++m) {
     const double k = static_cast<double>(power(2, m)), n = (k + 1) * (k + 1), valence = 50;
     double printed_sum = 0, work = 0;
@@ -231,8 +223,7 @@ TEST(Sec43_Time, IsLinearInTheLimitPointsWithTheFourOutsideTheSquare) {
     const double as_printed =
         5. / 3 * 16 * (root - 1) * (root - 1) + (5 + 4 * valence) * 2 * (root - 1) - 20. / 3 - 4 * valence;
     EXPECT_NEAR(as_printed - printed_sum, 20 * (root - 1) * (root - 1), 1e-6) << "square of the 4";
-    if (m >= 2 && m <= 5)
-      RecordProperty(fmt::format("work_per_limit_point_at_depth_{}", m), fmt::format("{:.1f}", work / n));
+    if (m >= 2 && m <= 5) verify::record("{:.1f}", work / n, "work_per_limit_point_at_depth_{}", m);
   }
   // by counting, at true valence: vectors stored per limit point settle down
   const auto per_point = [](int m) {
@@ -290,7 +281,6 @@ void expect_no_pair_of_arguments_exchangeable(const data::ControlMesh& mesh) {
 }
 
 TEST(Sec43_Pseudocode, NoTwoArgumentsOfEitherCallCanBeExchanged) {
-  RecordProperty("claim", "C43");
   const data::ControlMesh mesh = data::bumpy_sphere(80, 5);
   EXPECT_EQ(departure<NoProbe>(mesh), 0);
   expect_no_pair_of_arguments_exchangeable<true, 0>(mesh);
@@ -300,12 +290,11 @@ TEST(Sec43_Pseudocode, NoTwoArgumentsOfEitherCallCanBeExchanged) {
 }
 
 TEST(Sec431_Valence, FiftyIsNeitherNeededNorALimit) {
-  RecordProperty("claim", "C46");
   int largest = 0;
   for (const int faces : {200, 800, 2000, 4000})
     for (std::uint64_t seed = 1; seed <= 2; ++seed)
       largest = std::max(largest, Adjacency(data::bumpy_sphere(faces, seed)).max_valence());
-  RecordProperty("largest_valence_of_bumpy_spheres", largest);
+  verify::record("{}", largest, "largest_valence_of_bumpy_spheres");
   EXPECT_LE(largest, 50);
   EXPECT_GT(largest, 8);
   EXPECT_EQ(run<CountingWindow>(data::bipyramid(200), 3).counts.strips, 8);

@@ -19,6 +19,7 @@
 #include "fast/window/tessellator.h"
 #include "reference/loop/refine.h"
 #include "reference/loop/stam.h"
+#include "verify/claims/test_support/figures.h"
 #include "verify/host/host.h"
 #include "verify/subject/registry.h"
 
@@ -103,10 +104,8 @@ void compare_all(const std::vector<double>& position_bound, const std::vector<do
       compare<Real>(shape.name, shape.mesh, truth, depths, fast::Repair::kFan, 1000, worst);
       compare<Real>(shape.name, shape.mesh, truth, depths, fast::Repair::kStitch, 1000, worst);
     }
-    ::testing::Test::RecordProperty(fmt::format("depth_{}_position", depth),
-                                    fmt::format("{:.2g}", worst.position));
-    ::testing::Test::RecordProperty(fmt::format("depth_{}_normal", depth),
-                                    fmt::format("{:.2g}", worst.normal));
+    record("{:.2g}", worst.position, "depth_{}_position", depth);
+    record("{:.2g}", worst.normal, "depth_{}_normal", depth);
     fmt::print("depth {}: position {:.3g}, normal {:.3g} at {}\n", depth, worst.position, worst.normal,
                worst.where);
     EXPECT_LE(worst.position, position_bound[depth]) << "depth " << depth << " on " << worst.position_where;
@@ -115,7 +114,6 @@ void compare_all(const std::vector<double>& position_bound, const std::vector<do
 }
 
 TEST(Sec43_SlidingWindow, EqualsTheExactEvaluatorInFloat) {
-  RecordProperty("claim", "C19");
   // Positions: each level rounds once more, half an ulp of the largest coordinate. Worst seen 6.7e-8 up to
   // depth 4, 1.2e-7 at depth 7 (two components far apart); without that shape below 1e-7. Normals: points are
   // off by 1e-7 and 2^-depth apart, so the bound doubles with each level; worst seen 4.6e-5 at depth
@@ -125,14 +123,12 @@ TEST(Sec43_SlidingWindow, EqualsTheExactEvaluatorInFloat) {
 }
 
 TEST(Sec43_SlidingWindow, EqualsTheExactEvaluatorInDouble) {
-  RecordProperty("claim", "C19");
   compare_all<double>(std::vector<double>(8, 1e-14), std::vector<double>(8, 1e-10));
 }
 
 using V = fast::Vec3<double>;
 
 TEST(Sec5_Centre, NeedsNoPointOfItsStepThatTheLimitPointsOfTheFirstBorderStepDoNotNeed) {
-  RecordProperty("claim", "C64");
   double worst = 0;
   for (const auto& mesh : {data::icosahedron(), data::bumpy_sphere(200, 1)}) {
     const fast::Adjacency adjacency(mesh);
@@ -181,7 +177,6 @@ TEST(Sec5_Centre, NeedsNoPointOfItsStepThatTheLimitPointsOfTheFirstBorderStepDoN
 }
 
 TEST(Sec43_SlidingWindow, ReadsTheControlMeshAndNeverWritesIt) {
-  RecordProperty("claim", "C19");
   for (const auto& mesh : {data::bumpy_sphere(200, 1), data::holes(), data::wheel(50)}) {
     for (const char* options : {"output=strips", "output=indexed,precision=double", "repair=stitch"}) {
       Session session(*lc_subject_sliding_window(), mesh, options);

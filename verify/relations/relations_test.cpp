@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -22,7 +20,6 @@
 #include "reference/surface/surface.h"
 #include "verify/audit/audit.h"
 #include "verify/evidence/test_script.h"
-#include "verify/host/in_turns.h"
 #include "verify/mutants/faulty_subjects.h"
 #include "verify/relations/variants.h"
 #include "verify/row/test_rows.h"
@@ -230,8 +227,6 @@ std::string fault;            // of the subject under test
 int alive = 0;                // instances
 std::int64_t last_faces = 0;  // of the mesh tessellated before, by any instance
 int destroyed = 0;            // instances so far
-std::map<std::pair<std::size_t, std::size_t>, data::ControlMesh>
-    cache;  // the first of so many vertices and faces
 
 // The recursive subdivider, with a memory that it should not have: one word says which.
 class Forgetful {
@@ -258,14 +253,12 @@ class Forgetful {
  private:
   bool goes_wrong(std::int32_t depth, int threads) {
     const auto faces = static_cast<std::int64_t>(mesh_.faces.size());
-    const auto& first = cache.try_emplace({mesh_.positions.size(), mesh_.faces.size()}, mesh_).first->second;
     const bool wrong = (fault == "after_a_smaller_depth" && last_ >= 0 && last_ < depth) ||
                        (fault == "after_a_greater_depth" && deepest_ > depth) ||
                        (fault == "beside_another" && alive > 1) ||
                        (fault == "after_another_mesh" && last_faces != 0 && last_faces != faces) ||
                        (fault == "after_another_was_destroyed" && destroyed > others_destroyed_) ||
                        (fault == "first_depth_again" && first_ >= 0 && first_ != depth) ||
-                       (fault == "known_by_its_counts" && first.positions != mesh_.positions) ||
                        (fault == "eighth_call" && calls_ == 7) || (fault == "eight_threads" && threads == 8);
     ++calls_;
     deepest_ = std::max(deepest_, depth);
@@ -282,15 +275,11 @@ class Forgetful {
   int others_destroyed_ = destroyed;                    // before this was made
 };
 
-lc_subject forgetful() {
-  return make_subject<Forgetful>("forgetful", "right when it is asked once");
-}
-
 Result state_of(const std::string& what) {
   fault = what;
   alive = destroyed = 0;
   last_faces = 0;
-  const lc_subject subject = forgetful();
+  static const lc_subject subject = make_subject<Forgetful>("forgetful", "right when it is asked once");
   const auto results = Auditor(2, 1, {}, Level::kStandard)
                            .run({&subject, ""}, {"tetrahedron", data::named_mesh("tetrahedron")});
   EXPECT_EQ(alive, 0) << "every instance is destroyed";
@@ -316,19 +305,6 @@ TEST(State, OfASubjectWithoutMemoryHolds) {
     }
 }
 
-// As in a process of its own: what it knows by then, it knows from the turns.
-TEST(State, OfASubjectThatKnowsMeshesAgainByTheirCountsIsAFinding) {
-  fault = "known_by_its_counts";
-  alive = destroyed = 0;
-  const lc_subject subject = forgetful();
-  cache.clear();
-  InTurns turns(subject);
-  const AuditSubject audited{lc_subject_naive(), "", &turns.subject()};
-  const auto results =
-      Auditor(2, 1, {}, Level::kStandard).run(audited, {"tetrahedron", data::named_mesh("tetrahedron")});
-  EXPECT_EQ(row(results, "state").status, Status::kFinding);
-}
-
 class Remembers : public testing::TestWithParam<const char*> {};
 
 TEST_P(Remembers, IsAFindingOfStateAndNotOfDeterminism) {
@@ -343,20 +319,6 @@ INSTANTIATE_TEST_SUITE_P(EachWay, Remembers,
                                          "after_another_mesh", "after_another_was_destroyed",
                                          "first_depth_again", "eighth_call", "eight_threads"),
                          [](const auto& of) { return std::string(of.param); });
-
-// A point that is no number is `finite`'s business: it is the same one each time.
-TEST(State, OfTheSameNaNEachTimeHolds) {
-  lc_subject subject = *lc_subject_naive();
-  subject.tessellate = [](void* instance, const lc_request* request, lc_tessellation* out,
-                          const char** message) {
-    const lc_status status = lc_subject_naive()->tessellate(instance, request, out, message);
-    if (status == LC_OK) static_cast<double*>(out->positions)[0] = std::numeric_limits<double>::quiet_NaN();
-    return status;
-  };
-  const auto results = Auditor(1, 1, {}, Level::kStandard)
-                           .run({&subject, ""}, {"tetrahedron", data::named_mesh("tetrahedron")});
-  EXPECT_NE(row(results, "state").status, Status::kFinding) << row(results, "state").message;
-}
 
 }  // namespace
 }  // namespace limitcheck::verify

@@ -110,6 +110,12 @@ std::int64_t Asked::characteristic() const {
          static_cast<std::int64_t>(topology.edges().size()) + static_cast<std::int64_t>(mesh.faces.size());
 }
 
+bool Asked::has_polygons() const {
+  std::size_t f = 0;
+  while (f < mesh.faces.size() && !is_polygon(f)) ++f;
+  return f < mesh.faces.size();
+}
+
 int Asked::most_faces() const {
   int most = 0;
   for (const std::int32_t v : mesh.faces.corners()) most = std::max(most, faces(v));

@@ -15,18 +15,23 @@
 
 namespace limitcheck::verify {
 
+/// A table in the making.
+struct Rows : std::vector<Change> {
+  void operator+=(Change c) { push_back(std::move(c)); }
+};
+
 // The tables, by what they are about; each of faulty_subjects.h is made of some.
-std::vector<Change> faults_of_channel_derivatives();
-std::vector<Change> faults_of_channels();
-std::vector<Change> faults_of_frames();
-std::vector<Change> faults_of_numbers();
-std::vector<Change> faults_of_refusals();
-std::vector<Change> faults_of_sharp_rules();
-std::vector<Change> faults_of_memory();
-std::vector<Change> faults_of_polygons();
-std::vector<Change> faults_of_tags();
-std::vector<Change> faults_of_rare_tags();
-std::vector<Change> faults_of_rare_places();
+void faults_of_channel_derivatives(Rows& to);
+void faults_of_channels(Rows& to);
+void faults_of_frames(Rows& to);
+void faults_of_numbers(Rows& to);
+void faults_of_refusals(Rows& to);
+void faults_of_sharp_rules(Rows& to);
+void faults_of_memory(Rows& to);
+void faults_of_polygons(Rows& to);
+void faults_of_tags(Rows& to);
+void faults_of_rare_tags(Rows& to);
+void faults_of_rare_places(Rows& to);
 
 /// The three triangles of one control face round a lattice point inside one of its edges, in order: together
 /// they have the corners a, x, y, b and m lies between a and b.
@@ -49,28 +54,16 @@ using Tags = data::Sharpness&;
 using Vector = Delivered::Vector;
 using On = Change::On;
 
-inline Change row(std::string name, std::string description, std::string check) {
-  return {.name = std::move(name), .description = std::move(description), .check = std::move(check)};
-}
+/// What faults.txt tells of it.
+Change row(std::string_view name);
 /// With one member more.
 template <class Member, class Value>
 Change with(Change c, Member Change::*member, Value value) {
   c.*member = std::move(value);
   return c;
 }
-inline Change on(Change::On schemes, Change c) {
-  return with(std::move(c), &Change::on, schemes);
-}
-/// Only meshes with tags bring it out.
-inline Change sharp(Change c) {
-  return with(std::move(c), &Change::sharp, true);
-}
-inline Change claimed(Change c, const char* claim) {
-  return with(std::move(c), &Change::claim, claim);
-}
-inline Change deliver(const char* name, const char* description, const char* check,
-                      std::function<void(A, D)> what) {
-  return with(row(name, description, check), &Change::deliver, std::move(what));
+inline Change deliver(const std::string& name, std::function<void(A, D)> what) {
+  return with(row(name), &Change::deliver, std::move(what));
 }
 /// A vertex that was delivered.
 struct At {
@@ -91,29 +84,26 @@ struct At {
   std::int32_t control_vertex() const { return a.control_vertex(p); }
 };
 /// What is done to each vertex.
-inline Change vertex(const char* name, const char* description, const char* check,
-                     std::function<void(const At&)> what) {
-  return deliver(name, description, check, [what](A a, D out) {
+inline Change vertex(const std::string& name, std::function<void(const At&)> what) {
+  return deliver(name, [what](A a, D out) {
     for (std::size_t v = 0; v < out.positions.size(); ++v) what({a, out, v, out.place(v)});
   });
 }
-inline Change ask(const char* name, const char* description, const char* check,
-                  std::function<void(A, Depths)> what) {
-  return with(row(name, description, check), &Change::ask, std::move(what));
+inline Change ask(const std::string& name, std::function<void(A, Depths)> what) {
+  return with(row(name), &Change::ask, std::move(what));
 }
-inline Change take(const char* name, const char* description, const char* check,
-                   std::function<void(Mesh)> what) {
-  return with(row(name, description, check), &Change::take, std::move(what));
+inline Change declare(const std::string& name, std::function<void(lc_capabilities&)> what) {
+  return with(row(name), &Change::declare, std::move(what));
 }
-inline Change remake(std::string name, std::string description, const char* check,
-                     std::function<void(A, Mesh)> what) {
-  return with(row(std::move(name), std::move(description), check), &Change::remake, std::move(what));
+inline Change take(const std::string& name, std::function<void(Mesh)> what) {
+  return with(row(name), &Change::take, std::move(what));
+}
+inline Change remake(const std::string& name, std::function<void(A, Mesh)> what) {
+  return with(row(name), &Change::remake, std::move(what));
 }
 /// Other tags, where there are some.
-inline Change tags(std::string name, std::string description, std::function<void(A, Tags)> what,
-                   const char* check = "positions") {
-  Change c = sharp(on(On::kBoth, remake(std::move(name), std::move(description), check,
-                                        [what](A a, Mesh m) { what(a, m.sharpness); })));
+inline Change tags(const std::string& name, std::function<void(A, Tags)> what) {
+  Change c = remake(name, [what](A a, Mesh m) { what(a, m.sharpness); });
   if (c.check == "positions")
     c.shows = [what](A a) {
       data::Sharpness changed = a.mesh.sharpness;
@@ -125,17 +115,16 @@ inline Change tags(std::string name, std::string description, std::function<void
 /// At a vertex with more edges than that, only the first ones have tags.
 void lose_edges_beyond(Tags t, int most);
 /// Each sharpness becomes what `value` makes of it; 0 is no tag.
-inline Change values(std::string name, std::string description, std::function<float(A, float)> value,
-                     const char* check = "positions") {
-  return tags(
-      std::move(name), std::move(description),
-      [value](A a, Tags t) {
-        for (auto& e : t.edges) e.sharpness = value(a, e.sharpness);
-        for (auto& v : t.vertices) v.sharpness = value(a, v.sharpness);
-        std::erase_if(t.edges, [](const auto& e) { return e.sharpness == 0; });
-        std::erase_if(t.vertices, [](const auto& v) { return v.sharpness == 0; });
-      },
-      check);
+template <class Value>
+void each_sharpness(Tags t, Value value) {
+  const auto change = [&](auto& list) {
+    for (auto& tag : list) tag.sharpness = value(tag.sharpness);
+    std::erase_if(list, [](const auto& tag) { return tag.sharpness == 0; });
+  };
+  change(t.edges), change(t.vertices);
+}
+inline Change values(const std::string& name, std::function<float(A, float)> value) {
+  return tags(name, [value](A a, Tags t) { each_sharpness(t, [&](float s) { return value(a, s); }); });
 }
 
 inline bool lasts(float sharpness) {
@@ -169,23 +158,19 @@ inline Vector unit_cross(const Vector& p, const Vector& q) {
 }
 
 /// Each vertex moves along its normal, by a share of the box.
-inline Change outwards(const char* name, const char* description, const char* check,
-                       std::function<double(const At&)> share) {
-  return vertex(name, description, check, [share](const At& at) {
+inline Change outwards(const std::string& name, std::function<double(const At&)> share) {
+  return vertex(name, [share](const At& at) {
     if (const double by = share(at); by != 0 && !at.out.normals.empty())
       add(at.position(), at.normal(), by * at.a.diagonal);
   });
 }
 /// Each coordinate of each position becomes what `one` makes of it.
-inline Change positions(const char* name, const char* description, const char* check,
-                        std::function<double(A, double)> one) {
-  return vertex(name, description, check,
-                [one](const At& at) { each(at.position(), [&](double x) { return one(at.a, x); }); });
+inline Change positions(const std::string& name, std::function<double(A, double)> one) {
+  return vertex(name, [one](const At& at) { each(at.position(), [&](double x) { return one(at.a, x); }); });
 }
 /// Normals become what `what` makes of them.
-inline Change normals(const char* name, const char* description, const char* check,
-                      std::function<void(Vector&)> what) {
-  return deliver(name, description, check, [what](A, D out) {
+inline Change normals(const std::string& name, std::function<void(Vector&)> what) {
+  return deliver(name, [what](A, D out) {
     if (out.normals.empty() && !out.positions.empty()) nowhere("normal");
     for (Vector& n : out.normals) what(n);
   });
@@ -195,9 +180,8 @@ inline void negate(Vector& n) {
 }
 
 /// Moves the vertices that `is_off` names by their places along x by 1e-5 of the largest coordinate.
-inline Change moved(std::string name, std::string description, std::function<bool(A, const Place&)> is_off,
-                    const char* check = "positions") {
-  Change c = row(std::move(name), std::move(description), check);
+inline Change moved(const std::string& name, std::function<bool(A, const Place&)> is_off) {
+  Change c = row(name);
   c.deliver = [is_off](A a, D out) {
     for (std::size_t v = 0; v < out.positions.size(); ++v)
       if (is_off(a, out.place(v))) out.positions[v][0] += 1e-5 * a.largest;

@@ -25,7 +25,6 @@ inline bool has_uv(const data::ControlMesh& mesh) {
 }
 
 inline Change of_channels(Change c, std::function<bool(A)> shows = {}) {
-  c.on = Change::On::kBoth;
   if (c.deliver)
     c.deliver = [what = std::move(c.deliver)](A a, D out) {
       if (out.channel_values.empty() || !has_uv(a.mesh)) nowhere("channel");

@@ -55,8 +55,8 @@ std::size_t split_off(D out) {
 
 // Edges in the order in which the faces name them; points inside those beyond the first `room` lie half way
 // between its ends.
-Change forgotten_edges(const char* name, const char* description, std::function<std::size_t(A)> room) {
-  return deliver(name, description, "positions", [room](A a, D out) {
+Change forgotten_edges(const std::string& name, std::function<std::size_t(A)> room) {
+  return deliver(name, [room](A a, D out) {
     std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> edges;
     const auto& faces = a.mesh.faces;
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -82,213 +82,151 @@ int component(const At& at) {
 void too_far_out(Vector& p) {
   each(p, [](double x) { return x * 1.00001; });
 }
-Change memory(const char* name, const char* description, bool Delivered::*what) {
-  return deliver(name, description, "written", [what](A, D out) { out.*what = true; });
+Change memory(const std::string& name, bool Delivered::*what) {
+  return deliver(name, [what](A, D out) { out.*what = true; });
 }
 
-std::vector<Change> of_all_meshes() {
-  return {
-      // Values.
-      deliver("nan_position", "one position is NaN", "finite",
-              [](A, D out) { out.positions[some_vertex(out)][1] = kNan; }),
-      deliver("infinite_position", "one position is infinite", "finite",
-              [](A, D out) { out.positions[some_vertex(out)][1] = std::numeric_limits<double>::infinity(); }),
-      deliver("nan_normal", "one normal is NaN", "finite", [](A, D out) { some_normal(out)[1] = kNan; }),
-      deliver("unwritten_position", "one position is left unwritten", "written",
-              [](A, D out) { out.positions[some_vertex(out)].fill(unwritten()); }),
-      deliver("unwritten_normal", "one normal is left unwritten", "written",
-              [](A, D out) { some_normal(out).fill(unwritten()); }),
-      deliver("unwritten_triangle", "the corners of one triangle are left unwritten", "written",
-              [](A, D out) { out.triangles[some_triangle(out)].fill(0xFFFFFFFFU); }),
-      deliver("unwritten_provenance", "the place of one vertex is left unwritten", "written",
-              [](A, D out) {
-                out.provenance[some_vertex(out)] = {-1, 0xFFFFFFFFU, 0xFFFFFFFFU, 0xFFFFFFFFU};
-              }),
-      deliver("unwritten_triangle_face", "the control face of one triangle is left unwritten", "written",
-              [](A, D out) { out.triangle_face[some_triangle(out)] = -1; }),
-      vertex("wrong_limit_mask",
-             "points at control vertices lie a hundredth of the way to the control vertex", "positions",
-             [](const At& at) {
-               if (const std::int32_t c = at.control_vertex(); c >= 0)
-                 add(at.position(), difference(at.a.mesh.positions[c], at.position()), 0.01);
-             }),
-      vertex("wrong_edge_mask", "points that are not control vertices are 1e-5 too far from the origin",
-             "positions",
-             [](const At& at) {
-               if (at.control_vertex() < 0) too_far_out(at.position());
-             }),
-      vertex("unmoved_vertices", "points at control vertices are the control vertices", "refined-positions",
-             [](const At& at) {
-               if (const std::int32_t c = at.control_vertex(); c >= 0) at.position() = at.a.mesh.positions[c];
-             }),
-      positions("snapped_positions", "positions are multiples of a fiftieth: small triangles collapse",
-                "positions", [](A, double x) { return std::round(x * 50) / 50; }),
-      normals("flipped_normals", "all normals point inside", "normals", negate),
-      deliver("one_flipped_normal", "one normal points inside", "normals",
-              [](A, D out) { negate(some_normal(out)); }),
-      normals("long_normals", "normals have length 2", "normal-length",
-              [](Vector& n) { each(n, [](double x) { return x * 2; }); }),
-
-      // Which point is which.
-      deliver("shifted_provenance", "each vertex has the provenance of the next", "positions",
-              [](A, D out) {
-                some_vertex(out);
-                std::rotate(out.provenance.begin(), out.provenance.begin() + 1, out.provenance.end());
-              }),
-      deliver("mirrored_provenance", "l1 and l2 are exchanged", "orientation",
-              [](A, D out) {
-                for (lc_provenance& p : out.provenance) std::swap(p.i, p.j);
-              }),
-      deliver("swapped_points", "two vertices have each other's position and normal", "positions",
-              [](A, D out) {
-                const auto [a, b, c] = out.triangles[some_triangle(out)];
-                std::swap(out.positions[a], out.positions[b]);
-                if (!out.normals.empty()) std::swap(out.normals[a], out.normals[b]);
-              }),
-      deliver("provenance_out_of_range", "one vertex lies outside its face", "written",
-              [](A, D out) {
-                lc_provenance& p = out.provenance[some_vertex(out)];
-                p.i = p.denominator + 1;
-              }),
-
-      // Triangles.
-      deliver("flipped_orientation", "all triangles are clockwise", "orientation",
-              [](A, D out) {
-                for (auto& t : out.triangles) std::swap(t[1], t[2]);
-              }),
-      deliver("one_flipped_triangle", "one triangle is clockwise", "orientation",
-              [](A, D out) {
-                auto& t = out.triangles[some_triangle(out)];
-                std::swap(t[1], t[2]);
-              }),
-      deliver("missing_triangle", "one triangle is missing", "coverage",
-              [](A, D out) { out.erase_triangle(some_triangle(out)); }),
-      deliver("duplicated_triangle", "one triangle is there twice", "coverage",
-              [](A, D out) {
-                const std::size_t t = some_triangle(out);
-                out.add_triangle(out.triangles[t], out.triangle_face[t]);
-              }),
-      deliver("face_twice", "the triangles of the last control face are there twice", "coverage",
-              [](A, D out) {
-                some_triangle(out);
-                const std::int32_t face = out.triangle_face.back();
-                for (std::size_t t = 0, count = out.triangles.size(); t < count; ++t)
-                  if (out.triangle_face[t] == face) out.add_triangle(out.triangles[t], face);
-              }),
-      deliver("wrong_triangle_face", "one triangle names another control face", "coverage",
-              [](A a, D out) {
-                auto& face = out.triangle_face[some_triangle(out)];
-                face = (face + 1) % static_cast<std::int32_t>(a.mesh.faces.size());
-              }),
-      deliver("index_out_of_range", "one triangle names a vertex that does not exist", "written",
-              [](A, D out) {
-                out.triangles[some_triangle(out)][2] = static_cast<std::uint32_t>(out.positions.size());
-              }),
-      deliver("t_vertex", "a point inside a control edge is left out on one side of it", "t-vertices",
-              [](A, D out) { leave_out(out, on_an_edge(out)); }),
-      deliver("one_ulp_crack", "a point inside a control edge is one ulp off on one side of it",
-              "shared-positions", [](A, D out) { out.move_up(split_off(out)); }),
-      deliver("one_ulp_normal", "a normal inside a control edge is one ulp off on one side of it",
-              "shared-normals",
-              [](A, D out) {
-                some_normal(out);
-                double& x = out.normals[split_off(out)][0];
-                x = out.one_ulp_up(x);
-              }),
-
-      // Memory.
-      deliver("negative_count", "vertex_count is -1", "written",
-              [](A, D out) { out.announced_vertices = -1; }),
-      deliver("count_too_large", "vertex_count is one more than there is memory for", "written",
-              [](A, D out) { out.announced_vertices = static_cast<std::int64_t>(out.positions.size()) + 1; }),
-      memory("foreign_memory", "the normals are not in the host's memory", &Delivered::foreign_normals),
-      memory("write_behind", "one coordinate is written behind the end of the positions",
-             &Delivered::overrun),
-      memory("write_before", "one coordinate is written in front of the positions", &Delivered::underrun),
-      memory("modified_mesh", "the control mesh is written to", &Delivered::modify_mesh),
-      memory("overlapping_arrays", "positions and normals are one array", &Delivered::overlap),
-  };
+void of_all_meshes(Rows& to) {
+  // Values.
+  to += deliver("nan_position", [](A, D out) { out.positions[some_vertex(out)][1] = kNan; });
+  to += deliver("infinite_position", [](A, D out) {
+    out.positions[some_vertex(out)][1] = std::numeric_limits<double>::infinity();
+  });
+  to += deliver("nan_normal", [](A, D out) { some_normal(out)[1] = kNan; });
+  to += deliver("unwritten_position", [](A, D out) { out.positions[some_vertex(out)].fill(unwritten()); });
+  to += deliver("unwritten_normal", [](A, D out) { some_normal(out).fill(unwritten()); });
+  to += deliver("unwritten_triangle", [](A, D out) { out.triangles[some_triangle(out)].fill(0xFFFFFFFFU); });
+  to += deliver("unwritten_provenance", [](A, D out) {
+    out.provenance[some_vertex(out)] = {-1, 0xFFFFFFFFU, 0xFFFFFFFFU, 0xFFFFFFFFU};
+  });
+  to += deliver("unwritten_triangle_face", [](A, D out) { out.triangle_face[some_triangle(out)] = -1; });
+  to += vertex("wrong_limit_mask", [](const At& at) {
+    if (const std::int32_t c = at.control_vertex(); c >= 0)
+      add(at.position(), difference(at.a.mesh.positions[c], at.position()), 0.01);
+  });
+  to += vertex("wrong_edge_mask", [](const At& at) {
+    if (at.control_vertex() < 0) too_far_out(at.position());
+  });
+  to += vertex("unmoved_vertices", [](const At& at) {
+    if (const std::int32_t c = at.control_vertex(); c >= 0) at.position() = at.a.mesh.positions[c];
+  });
+  to += positions("snapped_positions", [](A, double x) { return std::round(x * 50) / 50; });
+  to += normals("flipped_normals", negate);
+  to += deliver("one_flipped_normal", [](A, D out) { negate(some_normal(out)); });
+  to += normals("long_normals", [](Vector& n) { each(n, [](double x) { return x * 2; }); });
+  // Which point is which.
+  to += deliver("shifted_provenance", [](A, D out) {
+    some_vertex(out);
+    std::rotate(out.provenance.begin(), out.provenance.begin() + 1, out.provenance.end());
+  });
+  to += deliver("mirrored_provenance", [](A, D out) {
+    for (lc_provenance& p : out.provenance) std::swap(p.i, p.j);
+  });
+  to += deliver("swapped_points", [](A, D out) {
+    const auto [a, b, c] = out.triangles[some_triangle(out)];
+    std::swap(out.positions[a], out.positions[b]);
+    if (!out.normals.empty()) std::swap(out.normals[a], out.normals[b]);
+  });
+  to += deliver("provenance_out_of_range", [](A, D out) {
+    lc_provenance& p = out.provenance[some_vertex(out)];
+    p.i = p.denominator + 1;
+  });
+  // Triangles.
+  to += deliver("flipped_orientation", [](A, D out) {
+    for (auto& t : out.triangles) std::swap(t[1], t[2]);
+  });
+  to += deliver("one_flipped_triangle", [](A, D out) {
+    auto& t = out.triangles[some_triangle(out)];
+    std::swap(t[1], t[2]);
+  });
+  to += deliver("missing_triangle", [](A, D out) { out.erase_triangle(some_triangle(out)); });
+  to += deliver("duplicated_triangle", [](A, D out) {
+    const std::size_t t = some_triangle(out);
+    out.add_triangle(out.triangles[t], out.triangle_face[t]);
+  });
+  to += deliver("face_twice", [](A, D out) {
+    some_triangle(out);
+    const std::int32_t face = out.triangle_face.back();
+    for (std::size_t t = 0, count = out.triangles.size(); t < count; ++t)
+      if (out.triangle_face[t] == face) out.add_triangle(out.triangles[t], face);
+  });
+  to += deliver("wrong_triangle_face", [](A a, D out) {
+    auto& face = out.triangle_face[some_triangle(out)];
+    face = (face + 1) % static_cast<std::int32_t>(a.mesh.faces.size());
+  });
+  to += deliver("index_out_of_range", [](A, D out) {
+    out.triangles[some_triangle(out)][2] = static_cast<std::uint32_t>(out.positions.size());
+  });
+  to += deliver("t_vertex", [](A, D out) { leave_out(out, on_an_edge(out)); });
+  to += deliver("one_ulp_crack", [](A, D out) { out.move_up(split_off(out)); });
+  to += deliver("one_ulp_normal", [](A, D out) {
+    some_normal(out);
+    double& x = out.normals[split_off(out)][0];
+    x = out.one_ulp_up(x);
+  });
+  // Memory.
+  to += deliver("negative_count", [](A, D out) { out.announced_vertices = -1; });
+  to += deliver("count_too_large", [](A, D out) {
+    out.announced_vertices = static_cast<std::int64_t>(out.positions.size()) + 1;
+  });
+  to += memory("foreign_memory", &Delivered::foreign_normals);
+  to += memory("write_behind", &Delivered::overrun);
+  to += memory("write_before", &Delivered::underrun);
+  to += memory("modified_mesh", &Delivered::modify_mesh);
+  to += memory("overlapping_arrays", &Delivered::overlap);
 }
 
 // Tables too short, assumptions about the shape, neighbourhoods that a search over many meshes has to find.
-std::vector<Change> of_some_meshes() {
-  return {
-      forgotten_edges("edges_of_genus_0",
-                      "a table of 3 V - 6 edges, as a closed mesh of genus 0 has: others are not smoothed",
-                      [](A a) { return 3 * a.mesh.positions.size() - 6; }),
-      forgotten_edges("edges_of_genus_1",
-                      "a table of 3 V edges, as a closed mesh of genus 1 has: others are not smoothed",
-                      [](A a) { return 3 * a.mesh.positions.size(); }),
-      vertex("second_component", "faces that are not reached from the first one keep their normals unturned",
-             "normals",
-             [](const At& at) {
-               if (component(at) > 0 && !at.out.normals.empty()) negate(at.normal());
-             }),
-      vertex("third_component", "from the third component on, points are 1e-5 too far from the origin",
-             "positions",
-             [](const At& at) {
-               if (component(at) > 1) too_far_out(at.position());
-             }),
-      deliver("welded_components",
-              "control vertices at one place, of whatever component, get one limit point", "positions",
-              [](A a, D out) {
-                std::map<Vector, std::pair<int, std::size_t>> known;
-                for (std::size_t v = 0; v < out.positions.size(); ++v) {
-                  const std::int32_t at = a.control_vertex(out.place(v));
-                  if (at < 0) continue;
-                  const auto [first, is_new] = known.try_emplace(a.mesh.positions[at], a.component[at], v);
-                  if (!is_new && first->second.first != a.component[at])
-                    out.positions[v] = Vector(out.positions[first->second.second]);
-                }
-              }),
-      deliver("flat_box", "brought to the unit cube axis by axis and back: 0 / 0 where the box is flat",
-              "finite",
-              [](A a, D out) {
-                for (std::size_t c = 0; c < 3; ++c) {
-                  const auto less = [&](const auto& p, const auto& q) { return p[c] < q[c]; };
-                  const auto [low, high] =
-                      std::minmax_element(a.mesh.positions.begin(), a.mesh.positions.end(), less);
-                  if ((*low)[c] == (*high)[c])
-                    for (Vector& p : out.positions) p[c] = kNan;
-                }
-              }),
-      vertex("edge_without_length", "divides by the lengths of edges: 0 / 0 at both ends", "finite",
-             [](const At& at) {
-               const std::int32_t c = at.control_vertex();
-               if (c < 0) return;
-               for (const std::int32_t r : at.a.topology.ring(c))
-                 if (at.a.mesh.positions[r] == at.a.mesh.positions[c]) at.position().fill(kNan);
-             }),
-      {.name = "indices_of_16_bits",
-       .description = "control points are fetched by the lower 16 bits of their number",
-       .check = "positions",
-       .of = "row-stream",  // the model refines the whole of a large mesh
-       .take =
-           [](data::ControlMesh& mesh) {
-             for (std::size_t v = 0x10000; v < mesh.positions.size(); ++v)
-               mesh.positions[v] = mesh.positions[v & 0xFFFF];
-           }},
-      moved("adjacent_extraordinary",
-            "in faces with two extraordinary vertices side by side, points are 1e-5 of the mesh off along x",
-            [](A a, const Place& p) {
-              const auto corners = a.mesh.faces[a.face_of(p)];
-              return a.control_vertex(p) < 0 &&
-                     std::count_if(corners.begin(), corners.end(),
-                                   [&](std::int32_t v) { return a.inside(v) && a.faces(v) != 6; }) > 1;
-            }),
-      moved("depth_difference_3",
-            "in faces beside one whose depth differs by 3, points are 1e-5 of the mesh off along x",
-            [](A a, const Place& p) {
-              const auto beside = [&](std::size_t side) {
-                const int other = a.depth_beyond(a.face_of(p), side);
-                return other >= 0 && std::abs(a.depth[a.face_of(p)] - other) == 3;
-              };
-              return a.control_vertex(p) < 0 && (beside(0) || beside(1) || beside(2));
-            }),
-      moved("valence_above_40",
-            "limit points of vertices amid more than 40 faces are 1e-5 of the mesh off along x",
-            [](A a, const Place& p) { return amid_more(a, a.control_vertex(p), 40); }),
-  };
+void of_some_meshes(Rows& to) {
+  to += forgotten_edges("edges_of_genus_0", [](A a) { return 3 * a.mesh.positions.size() - 6; });
+  to += forgotten_edges("edges_of_genus_1", [](A a) { return 3 * a.mesh.positions.size(); });
+  to += vertex("second_component", [](const At& at) {
+    if (component(at) > 0 && !at.out.normals.empty()) negate(at.normal());
+  });
+  to += vertex("third_component", [](const At& at) {
+    if (component(at) > 1) too_far_out(at.position());
+  });
+  to += deliver("welded_components", [](A a, D out) {
+    std::map<Vector, std::pair<int, std::size_t>> known;
+    for (std::size_t v = 0; v < out.positions.size(); ++v) {
+      const std::int32_t at = a.control_vertex(out.place(v));
+      if (at < 0) continue;
+      const auto [first, is_new] = known.try_emplace(a.mesh.positions[at], a.component[at], v);
+      if (!is_new && first->second.first != a.component[at])
+        out.positions[v] = Vector(out.positions[first->second.second]);
+    }
+  });
+  to += deliver("flat_box", [](A a, D out) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto less = [&](const auto& p, const auto& q) { return p[c] < q[c]; };
+      const auto [low, high] = std::minmax_element(a.mesh.positions.begin(), a.mesh.positions.end(), less);
+      if ((*low)[c] == (*high)[c])
+        for (Vector& p : out.positions) p[c] = kNan;
+    }
+  });
+  to += vertex("edge_without_length", [](const At& at) {
+    const std::int32_t c = at.control_vertex();
+    if (c < 0) return;
+    for (const std::int32_t r : at.a.topology.ring(c))
+      if (at.a.mesh.positions[r] == at.a.mesh.positions[c]) at.position().fill(kNan);
+  });
+  to += take("indices_of_16_bits", [](Mesh m) {
+    for (std::size_t v = 0x10000; v < m.positions.size(); ++v) m.positions[v] = m.positions[v & 0xFFFF];
+  });
+  to += moved("adjacent_extraordinary", [](A a, const Place& p) {
+    const auto corners = a.mesh.faces[a.face_of(p)];
+    return a.control_vertex(p) < 0 && std::count_if(corners.begin(), corners.end(), [&](std::int32_t v) {
+                                        return a.inside(v) && a.faces(v) != 6;
+                                      }) > 1;
+  });
+  to += moved("depth_difference_3", [](A a, const Place& p) {
+    const auto beside = [&](std::size_t side) {
+      const int other = a.depth_beyond(a.face_of(p), side);
+      return other >= 0 && std::abs(a.depth[a.face_of(p)] - other) == 3;
+    };
+    return a.control_vertex(p) < 0 && (beside(0) || beside(1) || beside(2));
+  });
+  to += moved("valence_above_40", [](A a, const Place& p) { return amid_more(a, a.control_vertex(p), 40); });
 }
 
 }  // namespace
@@ -323,17 +261,11 @@ void leave_out(D out, const HalfFan& fan) {
 }
 
 std::span<const Fault> faults() {
-  static const std::vector<Fault> list = [] {
-    std::vector<Fault> all{{.name = "none", .description = "nothing: the subject as it is"}};
-    for (Fault& fault : of_all_meshes()) all.push_back(fault);
-    for (Fault& fault : of_some_meshes()) {
-      fault.on_some_meshes = true;
-      all.push_back(fault);
-    }
-    all[0].on = Change::On::kBoth;
-    for (Fault& fault : all)
-      if (fault.name == "unmoved_vertices") fault.of = "model", fault.options = "points=refined";
-    return all;
+  static const Rows list = [] {
+    Rows to;
+    to += row("none");
+    of_all_meshes(to), of_some_meshes(to);
+    return to;
   }();
   return list;
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <future>
-#include <initializer_list>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -126,16 +125,10 @@ class ChangedSubject {
   // What the options say: the row of the table, the subject that is changed, and the options for that one.
   struct Choice {
     explicit Choice(Options& given) {
-      std::vector<const Change*> all;
+      const std::span<const Change> rows = kFaulty ? all_faults() : habits();
       std::vector<std::string_view> names;
-      const auto offer = [&](std::span<const Change> rows) {
-        for (const Change& c : rows) all.push_back(&c), names.push_back(c.name);
-      };
-      if (kFaulty)
-        for (const FaultTable& table : fault_tables()) offer(table.faults);
-      else
-        offer(habits());
-      change = all[static_cast<std::size_t>(given.choice(kFaulty ? kFault : kHabit, names))];
+      for (const Change& c : rows) names.push_back(c.name);
+      change = &rows[static_cast<std::size_t>(given.choice(kFaulty ? kFault : kHabit, names))];
       const std::string name = given.value("of", "null");
       subject = find_subject(name);
       if (subject == nullptr || subject == lc_subject_faulty() || subject == lc_subject_unusual())
@@ -243,27 +236,19 @@ class ChangedSubject {
   std::vector<unsigned char> elsewhere_;
 };
 
-std::vector<Change> together(std::initializer_list<std::vector<Change>> lists) {
-  std::vector<Change> all;
-  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
-}
-
 }  // namespace
 
-const std::vector<FaultTable>& fault_tables() {
-  static const std::vector<Change> any = together({faults_of_frames(), faults_of_numbers(),
-                                                   faults_of_refusals(), faults_of_memory(),
-                                                   faults_of_polygons(), faults_of_tags(),
-                                                   faults_of_sharp_rules()}),
-                                   rare = together({faults_of_rare_tags(), faults_of_rare_places()}),
-                                   channels =
-                                       together({faults_of_channels(), faults_of_channel_derivatives()});
-  static const std::vector<FaultTable> tables{{faults(), "model", "quad-model", ""},
-                                              {any, "model", "quad-model", ""},
-                                              {rare, "naive", "naive", "loop_"},
-                                              {channels, "naive", "naive", "loop_"}};
-  return tables;
+std::span<const Fault> all_faults() {
+  static const Rows list = [] {
+    Rows to;
+    to.assign(faults().begin(), faults().end());
+    for (const auto& add_to : {faults_of_frames, faults_of_numbers, faults_of_refusals, faults_of_memory,
+                               faults_of_polygons, faults_of_tags, faults_of_sharp_rules, faults_of_rare_tags,
+                               faults_of_rare_places, faults_of_channels, faults_of_channel_derivatives})
+      add_to(to);
+    return to;
+  }();
+  return list;
 }
 
 std::string faulty_options(std::string_view fault, std::string_view subject, std::string_view options) {

@@ -77,6 +77,8 @@ struct Asked {
     return scheme == data::Scheme::kCatmullClark && mesh.faces[face].size() != 4;
   }
 
+  bool has_polygons() const;
+
   FaceDomain domain(std::size_t face) const { return {scheme, static_cast<int>(mesh.faces[face].size())}; }
   /// The side that a delivered vertex lies on and how far along it, over `steps`; the control vertex that it
   /// lies at, or -1.
@@ -119,9 +121,11 @@ struct Change {
   std::string check;            // the row of the audit meant to find it; of a habit: none
   On on = On::kLoop;            // which scheme has it
   bool sharp = false;           // only sharp edges and vertices bring it out
+  bool deep = false;            // only depths from 1 on
+  bool rare = false;            // planted in `naive`: a neighbourhood that has to be met, or of channels
   bool on_some_meshes = false;  // only control meshes of its kind bring it out; on others it changes nothing
   std::string claim = {};       // of the paper, where it is the paper taken literally
-  std::string of = {}, options = {};  // the subject that it is planted in, if not that of its table
+  std::string of = {}, options = {};  // the subject that it is planted in, if not the model
   /// Whether a mesh and a depth can bring it out; empty: each can.
   std::function<bool(const Asked&)> shows = {};
   bool of_the_process = false;  // touches what all code of a process shares: to be tried in one of its own
@@ -146,13 +150,8 @@ using Habit = Change;
 /// Faults of what is delivered; the first is "none". Some need something to be planted in (a depth >= 1,
 /// normals, a vertex of another valence than 6): without it tessellate() returns LC_NOT_SUPPORTED.
 std::span<const Fault> faults();
-/// All faults, those of faults() among them, with the subject that a mutant has them planted in.
-struct FaultTable {
-  std::span<const Fault> faults;
-  const char *of_loop, *of_quads;  // if the fault does not say
-  const char* loop_prefix;         // of the names of mutants of Loop's scheme; the others have "quad_"
-};
-const std::vector<FaultTable>& fault_tables();
+/// All faults, beginning with faults().
+std::span<const Fault> all_faults();
 /// Habits; the first is "none".
 std::span<const Habit> habits();
 

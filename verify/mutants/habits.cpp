@@ -3,14 +3,12 @@
 #include <unistd.h>
 
 #include <cfenv>
-#include <chrono>
 #include <clocale>
 #include <cstdio>
 #include <iostream>
 #include <locale>
 #include <map>
 #include <numeric>
-#include <thread>
 
 #if defined(__SSE2__)
 #include <pmmintrin.h>
@@ -26,19 +24,8 @@ using namespace rows;
 
 namespace {
 
-Change habit(const char* name, const char* description) {
-  return on(On::kBoth, row(name, description, ""));
-}
-Change delivered(const char* name, const char* description, std::function<void(A, D)> what) {
-  return on(On::kBoth, deliver(name, description, "", std::move(what)));
-}
-Change declared(const char* name, const char* description, std::function<void(lc_capabilities&)> what) {
-  return with(habit(name, description), &Change::declare, std::move(what));
-}
-Change behaves(const char* name, const char* description, std::function<void()> what,
-               bool of_the_process = true) {
-  return with(with(habit(name, description), &Change::behave, std::move(what)), &Change::of_the_process,
-              of_the_process);
+Change behaves(const std::string& name, std::function<void()> what) {
+  return with(row(name), &Change::behave, std::move(what));
 }
 
 // With no vertices or triangles yet; whoever wraps it is told the rest.
@@ -65,25 +52,16 @@ std::vector<std::size_t> shuffled(std::size_t count) {
   for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random.next() % k]);
   return order;
 }
-void reorder(D out, const std::vector<std::size_t>& vertices, const std::vector<std::size_t>& triangles) {
+void shuffle(A, D out) {
   const Delivered all = emptied(out);
   std::vector<std::uint32_t> to(all.positions.size());
-  for (const std::size_t v : vertices) to[v] = out.add_vertex(all, v);
-  for (const std::size_t t : triangles) {
+  for (const std::size_t v : shuffled(to.size())) to[v] = out.add_vertex(all, v);
+  for (const std::size_t t : shuffled(all.triangles.size())) {
     std::array<std::uint32_t, 3> triangle = all.triangles[t];
     for (std::uint32_t& v : triangle) v = to[v];
     std::rotate(triangle.begin(), triangle.begin() + static_cast<std::ptrdiff_t>(t % 3), triangle.end());
     out.add_triangle(triangle, all.triangle_face[t]);
   }
-}
-void shuffle(A, D out) {
-  reorder(out, shuffled(out.positions.size()), shuffled(out.triangles.size()));
-}
-void reverse(A, D out) {
-  std::vector<std::size_t> vertices(out.positions.size()), triangles(out.triangles.size());
-  std::iota(vertices.rbegin(), vertices.rend(), 0);
-  std::iota(triangles.rbegin(), triangles.rend(), 0);
-  reorder(out, vertices, triangles);
 }
 
 // Two triangles (a, b, c) and (c, b, d) of one face that make a parallelogram of the lattice become (a, b, d)
@@ -209,97 +187,61 @@ void round_and_raise() {
   std::fesetround(FE_TONEAREST);
 }
 
-std::vector<Change> all_habits() {
-  return {
-      habit("none", "none: the subject as it is"),
-      delivered("soup", "every triangle has vertices of its own", soup),
-      delivered("shuffled", "vertices and triangles in any order, triangles begun at any corner", shuffle),
-      delivered("reversed", "vertices and triangles from last to first", reverse),
-      delivered("other_diagonals", "inner rhombi are cut along the other diagonal", cut_otherwise),
-      delivered("any_face", "points of edges and corners are named by another face that touches them",
-                name_other_faces),
-      delivered("other_corner", "points between two quads of a face that is none are named by the other",
-                name_other_corners),
-      delivered("large_denominators", "fractions are not in lowest terms, nor of the depth: 2 i / 2 n",
-                [](A, D out) {
-                  for (lc_provenance& p : out.provenance)
-                    if (p.denominator != 3) p = {p.face, 2 * p.i, 2 * p.j, 2 * p.denominator};
-                }),
-      delivered("lowest_terms", "fractions are in lowest terms",
-                [](A, D out) {
-                  for (lc_provenance& p : out.provenance) {
-                    const std::uint32_t common = std::gcd(std::gcd(p.i, p.j), p.denominator);
-                    p = {p.face, p.i / common, p.j / common, p.denominator / common};
-                  }
-                }),
-      delivered("unused_vertices",
-                "a third of the vertices is there twice, and no triangle uses the second one",
-                [](A, D out) {
-                  const Delivered all = out;
-                  for (std::size_t v = 0; v < all.positions.size(); v += 3) out.add_vertex(all, v);
-                }),
-      delivered("large_indices", "triangles use the last copy of eight of each vertex: indices are large",
-                [](A, D out) {
-                  const Delivered all = out;
-                  const auto count = static_cast<std::uint32_t>(all.positions.size());
-                  for (int copy = 1; copy < 8; ++copy)
-                    for (std::size_t v = 0; v < count; ++v) out.add_vertex(all, v);
-                  for (auto& triangle : out.triangles)
-                    for (std::uint32_t& v : triangle) v += 7 * count;
-                }),
-      delivered("negative_zeros", "zeros are negative",
-                [](A, D out) {
-                  for (auto* list : {&out.positions, &out.normals})
-                    for (Vector& p : *list) each(p, [](double x) { return x == 0 ? -0.0 : x; });
-                }),
-      delivered("odd_memory", "all arrays are parts of one block, in another order, with room between",
-                [](A, D out) { out.in_one_block = true; }),
-      delivered("keeps_the_mesh", "keeps no copy of the control mesh: reads what it was lent each time",
-                [](A a, D) {
-                  if (!(control_mesh(*a.lent) == a.mesh))
-                    throw std::runtime_error("the mesh is not what it was");
-                }),
-      with(delivered("flags_and_rounding", "uses another rounding mode, and leaves exception flags raised",
-                     [](A, D) { round_and_raise(); }),
-           &Change::of_the_process, true),
-      on(On::kBoth, ask("deeper_where_allowed",
-                        "faces are deeper than asked for where all their neighbours are", "", deepen)),
-      declared("rounded_double", "computes in double and delivers float",
-               [](lc_capabilities& c) { c.precision = LC_FLOAT32; }),
-      declared("no_normals", "delivers no normals, and says so", [](lc_capabilities& c) { c.normals = 0; }),
-      declared("shallow", "to depth 2 only, and says so", [](lc_capabilities& c) { c.max_depth = 2; }),
-      declared("one_depth", "one depth for all faces only, and says so",
-               [](lc_capabilities& c) { c.per_face_depth = 0; }),
-      with(declared("closed_only", "closed meshes only, and says so",
-                    [](lc_capabilities& c) { c.boundary = LC_BOUNDARY_NONE; }),
-           &Change::refuse,
-           [](A a) {
-             for (const reference::Edge& e : a.topology.edges())
-               if (e.on_boundary()) throw SubjectError(LC_NOT_SUPPORTED, "closed meshes only");
-           }),
-      declared("nothing_sharp", "no sharp edges or vertices, and says so",
-               [](lc_capabilities& c) { c.sharp = 0; }),
-      declared("does_not_validate", "relies on its callers to hand over valid meshes, and says so",
-               [](lc_capabilities& c) { c.does_not_validate = 1; }),
-      with(habit("thread_of_its_own", "computes in a thread of its own"), &Change::in_a_thread, true),
-      behaves(
-          "slow", "takes its time", [] { std::this_thread::sleep_for(std::chrono::milliseconds(5)); },
-          /*of_the_process=*/false),
-      behaves("prints", "prints to standard output and standard error", print),
-      behaves("another_locale", "sets a locale with decimal commas, and leaves it set", set_locale),
-      behaves("flushes_to_zero", "has the processor flush small numbers to zero, and leaves it so",
-              flush_small_numbers),
-      behaves("goes_elsewhere", "changes the working directory",
-              [] {
-                if (chdir("/") != 0) throw std::runtime_error("cannot change the directory");
-              }),
-  };
-}
-
 }  // namespace
 
 std::span<const Habit> habits() {
-  static const std::vector<Habit> list = all_habits();
+  static const Rows list = [] {
+    Rows to;
+    to += row("none");
+    to += deliver("soup", soup);
+    to += deliver("shuffled", shuffle);
+    to += deliver("other_diagonals", cut_otherwise);
+    to += deliver("any_face", name_other_faces);
+    to += deliver("other_corner", name_other_corners);
+    to += deliver("large_denominators", [](A, D out) {
+      for (lc_provenance& p : out.provenance)
+        if (p.denominator != 3) p = {p.face, 2 * p.i, 2 * p.j, 2 * p.denominator};
+    });
+    to += deliver("lowest_terms", [](A, D out) {
+      for (lc_provenance& p : out.provenance) {
+        const std::uint32_t common = std::gcd(std::gcd(p.i, p.j), p.denominator);
+        p = {p.face, p.i / common, p.j / common, p.denominator / common};
+      }
+    });
+    to += deliver("unused_vertices", [](A, D out) {
+      const Delivered all = out;
+      for (std::size_t v = 0; v < all.positions.size(); v += 3) out.add_vertex(all, v);
+    });
+    to += deliver("negative_zeros", [](A, D out) {
+      for (auto* list : {&out.positions, &out.normals})
+        for (Vector& p : *list) each(p, [](double x) { return x == 0 ? -0.0 : x; });
+    });
+    to += deliver("odd_memory", [](A, D out) { out.in_one_block = true; });
+    to += deliver("keeps_the_mesh", [](A a, D) {
+      if (!(control_mesh(*a.lent) == a.mesh)) throw std::runtime_error("the mesh is not what it was");
+    });
+    to += deliver("flags_and_rounding", [](A, D) { round_and_raise(); });
+    to += ask("deeper_where_allowed", deepen);
+    to += declare("rounded_double", [](lc_capabilities& c) { c.precision = LC_FLOAT32; });
+    to += declare("no_normals", [](lc_capabilities& c) { c.normals = 0; });
+    to += declare("shallow", [](lc_capabilities& c) { c.max_depth = 2; });
+    to += declare("one_depth", [](lc_capabilities& c) { c.per_face_depth = 0; });
+    to += with(declare("closed_only", [](lc_capabilities& c) { c.boundary = LC_BOUNDARY_NONE; }),
+               &Change::refuse, [](A a) {
+                 for (const reference::Edge& e : a.topology.edges())
+                   if (e.on_boundary()) throw SubjectError(LC_NOT_SUPPORTED, "closed meshes only");
+               });
+    to += declare("nothing_sharp", [](lc_capabilities& c) { c.sharp = 0; });
+    to += declare("does_not_validate", [](lc_capabilities& c) { c.does_not_validate = 1; });
+    to += with(row("thread_of_its_own"), &Change::in_a_thread, true);
+    to += behaves("prints", print);
+    to += behaves("another_locale", set_locale);
+    to += behaves("flushes_to_zero", flush_small_numbers);
+    to += behaves("goes_elsewhere", [] {
+      if (chdir("/") != 0) throw std::runtime_error("cannot change the directory");
+    });
+    return to;
+  }();
   return list;
 }
 

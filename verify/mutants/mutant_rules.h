@@ -16,19 +16,13 @@
 #include "reference/catmull_clark/ringed_quad.h"
 #include "reference/loop/masks.h"
 #include "reference/mesh/topology.h"
+#include "verify/mutants/faulty_subjects.h"
 #include "verify/subject/face_domain.h"
 
 namespace limitcheck::verify {
 
-struct Mutation {
-  std::string_view name, description;
-  std::string_view check;       // the row of the audit meant for it
-  std::string_view claim = {};  // of the paper, where this is the paper taken literally
-  bool in_float = false;        // delivered in float: small faults hide in wider bounds
-};
-
-/// All mutations of the rules of a scheme; the first is "none".
-std::span<const Mutation> mutations(data::Scheme scheme);
+/// All mutations of the rules of a scheme, with their options beside `mutation=NAME`; the first is "none".
+std::span<const Change> mutations(data::Scheme scheme);
 
 /// A vertex with its neighbours and, in a mesh of quads, the far corners of its faces.
 using MutantRing = reference::catmull_clark::RingedCorner<reference::Vec3<double>>;

@@ -34,7 +34,7 @@ using Point = FaceDomain::Point;
 struct Settings {
   Settings(Options& options, data::Scheme of) : scheme(of) {
     std::vector<std::string_view> names;
-    for (const Mutation& m : mutations(scheme)) names.push_back(m.name);
+    for (const Change& m : mutations(scheme)) names.push_back(m.name);
     mutation = names[options.choice("mutation", names)];
     if (scheme != data::Scheme::kLoop) return;
     single = options.choice("precision", {"double", "float"}) == 1;

@@ -64,24 +64,25 @@ const std::vector<Mutant>& mutants() {
   static const std::vector<Mutant> list = [] {
     std::vector<Mutant> all;
     for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark})
-      for (const Mutation& m : mutations(scheme))
+      for (const Change& m : mutations(scheme)) {
+        const bool loop = scheme == data::Scheme::kLoop;
         if (m.name != "none")
-          all.push_back({fmt::format("{}{}", scheme == data::Scheme::kLoop ? "" : "quad_", m.name),
-                         std::string(m.description), scheme == data::Scheme::kLoop ? kBase : kQuadBase,
-                         fmt::format("mutation={}{}", m.name, m.in_float ? ",precision=float" : ""),
-                         std::string(m.check), std::string(m.claim), /*sharp=*/false, scheme});
-    for (const FaultTable& table : fault_tables())
-      for (const Fault& f : table.faults)
-        for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
-          const bool loop = scheme == data::Scheme::kLoop;
-          if (f.name == "none" || f.on == (loop ? Change::On::kQuads : Change::On::kLoop)) continue;
-          const std::string of = !f.of.empty() ? f.of : loop ? table.of_loop : table.of_quads;
-          all.push_back({(loop ? table.loop_prefix : "quad_") + f.name, f.description, "faulty",
-                         faulty_options(f.name, of, f.options), f.check, f.claim, f.sharp, scheme,
-                         !f.shows ? Mutant().shows : [&f, scheme](const data::ControlMesh& mesh, int depth) {
-                           return f.shows(Asked(mesh, scheme, depth));
-                         }});
-        }
+          all.push_back({(loop ? "" : "quad_") + m.name, m.description, loop ? kBase : kQuadBase,
+                         fmt::format("mutation={}{}{}", m.name, m.options.empty() ? "" : ",", m.options),
+                         m.check, m.claim, /*sharp=*/false, scheme});
+      }
+    for (const Fault& f : all_faults())
+      for (const data::Scheme scheme : {data::Scheme::kLoop, data::Scheme::kCatmullClark}) {
+        const bool loop = scheme == data::Scheme::kLoop;
+        if (f.name == "none" || f.on == (loop ? Change::On::kQuads : Change::On::kLoop)) continue;
+        const std::string of = !f.of.empty() ? f.of : f.rare ? "naive" : loop ? kBase : kQuadBase;
+        const char* prefix = !loop ? "quad_" : f.rare ? "loop_" : "";
+        all.push_back({prefix + f.name, f.description, "faulty", faulty_options(f.name, of, f.options),
+                       f.check, f.claim, f.sharp, scheme,
+                       [&f, scheme](const data::ControlMesh& mesh, int depth) {
+                         return (!f.deep || depth > 0) && (!f.shows || f.shows(Asked(mesh, scheme, depth)));
+                       }});
+      }
     all.push_back({"wrong_refined_points", "refined points 1e-5 too far from the origin", "faulty",
                    faulty_options("wrong_edge_mask", kBase, "points=refined"), "refined-positions", "",
                    false});

@@ -53,6 +53,15 @@ TEST(Mutants, AreAtLeastAHundredAndSixtyEachWithAnotherNameAndACheckMeantForIt) 
   EXPECT_GE(names.size(), 160U);
 }
 
+TEST(Mutants, DoWhatEachLineOfTheListTells) {
+  const std::string list = contents_of(LIMITCHECK_SOURCE_DIR "/verify/mutants/faults.txt");
+  const std::string lines = list.substr(list.find("[faults and habits]"));
+  static const std::regex line("\n[^ #\n]+ \\| ");
+  const std::size_t done = all_faults().size() + habits().size() - 1;  // `none` is one of both
+  EXPECT_EQ(std::distance(std::sregex_iterator(lines.begin(), lines.end(), line), std::sregex_iterator()),
+            static_cast<std::ptrdiff_t>(done));
+}
+
 TEST(Mutants, AreAllKilledByTheCheckMeantForThemAndNoCheckIsIdle) {
   Journal journal(mutants_plan("", true));
   run_mutants(journal);

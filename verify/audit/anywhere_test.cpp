@@ -103,5 +103,17 @@ TEST(CornersTurned, ShowSumsInTheFrameOfTheFaceAndNothingElseDoes) {
   }
 }
 
+TEST(CornersTurned, LeaveOurOwnEnginesAlike) {
+  for (const char* subject : {"naive", "sliding-window", "row-stream"})
+    for (const char* name : {"quad-torus", "bumpy:300", "ragged-disc", "mixed:1:60", "stars:3"}) {
+      AuditMesh mesh = named(name, 2);
+      mesh.relations = false;
+      const auto results = run(subject, "", mesh);
+      EXPECT_FALSE(is_bad(row(results, "corner-rotation"))) << subject << " on " << name << "\n"
+                                                            << red(results);
+      EXPECT_GT(row(results, "corner-rotation").of, 0);
+    }
+}
+
 }  // namespace
 }  // namespace limitcheck::verify

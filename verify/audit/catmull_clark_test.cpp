@@ -3,11 +3,15 @@
 // finding, on every kind of face and boundary; who is asked for which, and who is blamed.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
+#include <utility>
 
 #include "data/generators/named_mesh.h"
 #include "verify/audit/audit.h"
 #include "verify/audit/default_plan.h"
+#include "verify/host/host.h"
+#include "verify/mutants/faulty_subjects.h"
 #include "verify/projection/test_meshes.h"
 #include "verify/row/test_rows.h"
 #include "verify/subject/registry.h"
@@ -50,10 +54,41 @@ TEST(CatmullClarkAudit, ADiagonalBesideAnotherEdgeOfTheSameEndsIsNoFault) {
             << subject->name << ": " << r.message;
 }
 
-AuditMesh named(const std::string& name, int depth = 2) {
+TEST(CatmullClarkAudit, AStitchedTessellatorHasNoFindingAtUnequalDepths) {
+  for (const test::TestMesh& m : test::quad_meshes())
+    for (const std::uint64_t seed : {1, 2, 3})
+      for (const int least : {-1, 0}) {
+        AuditMesh mesh = audited(m);
+        mesh.face_depth = random_depths(m.mesh.faces.size(), least, 4, seed);
+        mesh.depth = 4;
+        Auditor auditor(4, 1, {}, seed == 1 ? Level::kThorough : Level::kQuick);
+        expect_held(auditor.run({lc_subject_quad_model(), ""}, mesh), m.name + " at unequal depths");
+      }
+}
+
+AuditMesh named(const std::string& name, int depth = 2, const std::string& depths = "uniform") {
   AuditMesh m{name, data::named_mesh(name)};
   m.depth = depth;
+  m.depths = depths;
+  m.face_depth = face_depths(parse_depths(depths), m.mesh, depth);
   return m;
+}
+
+TEST(SharpAudit, ARightSubjectHasNoFindingAtAnyDepth) {
+  for (const char* name :
+       {"creased-cube", "creased-cube:5", "crease-ring", "crease-ring:9", "quad-dart:3", "quad-dart:4",
+        "quad-dart:7", "quad-corner:2", "quad-corner:3", "quad-corner:5", "mixed-sharp:1:40",
+        "mixed-sharp:8:40", "mixed-sharp:10:40", "mixed-sharp:11:40", "smooth-triangles:2:40"})
+    for (const int depth : {0, 1, 3})
+      for (const char* depths : {"uniform", "random:1"}) {
+        Auditor auditor(depth, 1, {}, Level::kQuick);
+        const AuditMesh mesh = named(name, depth, depths);
+        const bool loop = mesh.scheme() == data::Scheme::kLoop;
+        const lc_subject* model = loop ? lc_subject_model() : lc_subject_quad_model();
+        for (const Result& r : auditor.run({model, ""}, mesh))
+          EXPECT_FALSE(is_bad(r)) << name << " depth " << depth << " " << depths << " / " << r.check << ": "
+                                  << r.message;
+      }
 }
 
 // What a subject that is right in all declares, and how often it was handed a mesh.
@@ -116,6 +151,38 @@ TEST(SharpAudit, ASubjectThatDoesNoDartsIsAskedForOtherCreases) {
   }
   for (const char* other : {"quad-cube", "creased-cube", "crease-ring", "quad-fan:3"})
     EXPECT_EQ(status(other, no_darts), Status::kHeld) << other;
+}
+
+TEST(SharpAudit, WhoDeclaresSemiSharpEdgesAndKeepsThemForEverIsFoundAndOnlyThere) {
+  const auto positions = [](const char* mesh) {
+    return row(Auditor(2, 1, {}, Level::kQuick)
+                   .run({lc_subject_faulty(), faulty_options("semi_as_infinite", "quad-model")}, named(mesh)),
+               "positions")
+        .status;
+  };
+  EXPECT_EQ(positions("creased-cube"), Status::kHeld);
+  EXPECT_EQ(positions("creased-cube:9"), Status::kFinding);
+  EXPECT_EQ(positions("crease-ring:1"), Status::kFinding);
+}
+
+// A subject that looks whether the edges exist is handed tags that fit in all relations.
+TEST(SharpAudit, TagsFollowTheVerticesIntoEveryVariantOfTheMesh) {
+  lc_subject strict = *lc_subject_quad_model();
+  strict.create = [](const lc_mesh* mesh, const char* options, void** instance, const char** message) {
+    std::set<std::pair<std::int32_t, std::int32_t>> edges;
+    const std::int32_t* corner = mesh->corners;
+    for (std::int64_t f = 0; f < mesh->face_count; corner += mesh->face_sizes[f++])
+      for (std::int32_t k = 0; k < mesh->face_sizes[f]; ++k) {
+        const std::int32_t a = corner[k], b = corner[(k + 1) % mesh->face_sizes[f]];
+        edges.insert({a, b}), edges.insert({b, a});
+      }
+    *message = "a sharp edge that is no edge";
+    for (std::int64_t k = 0; k < mesh->sharp_edge_count; ++k)
+      if (!edges.contains({mesh->sharp_edges[k].a, mesh->sharp_edges[k].b})) return LC_INVALID_INPUT;
+    return lc_subject_quad_model()->create(mesh, options, instance, message);
+  };
+  for (const Result& r : Auditor(1, 1, {}, Level::kThorough).run({&strict, ""}, named("mixed-sharp:8:40", 1)))
+    EXPECT_FALSE(is_bad(r)) << r.check << ": " << r.message;
 }
 
 }  // namespace

@@ -39,6 +39,24 @@ TEST(DefaultPlan, LooksAtEveryCellWhateverASubjectDoes) {
   }
 }
 
+TEST(DefaultPlan, AFaultInOneCellIsSeenWhenItsMeshesAreLeftOut) {
+  std::vector<Looked> known;
+  for (const AuditMesh& m : default_plan(Level::kQuick))
+    if (m.scheme() == data::Scheme::kLoop && m.name.find("stars:") == std::string::npos)
+      known.push_back(look_at(m));
+  const Covered now = covered_by(known, data::Scheme::kLoop, steps_of_ability().back());
+  EXPECT_GT(std::count(now.wanted.begin(), now.wanted.end(), true),
+            2 * std::count(now.looked.begin(), now.looked.end(), true));
+}
+
+TEST(DefaultPlan, AsksForEveryStockShapeAtDepths2And4) {
+  const auto cases = asked(default_plan(Level::kStandard));
+  for (const std::string& shape : data::stock_shapes())
+    for (const int depth : {2, 4})
+      EXPECT_TRUE(cases.contains(fmt::format("{} {} uniform", shape, depth)) || shape == "wheel:200")
+          << shape;
+}
+
 TEST(DefaultPlan, AsksForEveryDepthUpToSevenAndForUnequalDepths) {
   std::set<std::string> depths;
   for (const AuditMesh& m : default_plan(Level::kStandard))

@@ -5,6 +5,9 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,6 +65,50 @@ TEST(Findings, OpenSubdivsUniformRefinementInDoubleHasTheRightPositionsOnEverySh
   }
 }
 
+TEST(Findings, BfrIsApproximateAtItsDefaultLevelAndExactAtLatticePointsWhenIsolatedAsDeep) {
+  const auto by_default = audit("opensubdiv-bfr", "", "bumpy:200", 4);
+  EXPECT_EQ(row(by_default, "positions").status, Status::kFinding);
+  EXPECT_GT(row(by_default, "positions").worst, 1e-4);
+  EXPECT_GT(row(by_default, "normals").worst, 5);
+  ASSERT_TRUE(row(by_default, "positions").witness.has_value());
+  const auto isolated = audit("opensubdiv-bfr", "approx-level=4", "bumpy:200", 4);
+  EXPECT_EQ(row(isolated, "positions").status, Status::kHeld);
+}
+
+TEST(Findings, BfrGivesSharedPointsDifferentBitsOnTheTwoSidesOfAnEdge) {
+  const auto results = audit("opensubdiv-bfr", "", "bumpy:800", 4);
+  const Result& positions = row(results, "shared-positions");
+  const Result& normals = row(results, "shared-normals");
+  EXPECT_EQ(positions.status, Status::kFinding);
+  EXPECT_GT(static_cast<double>(positions.bad), 0.75 * static_cast<double>(positions.of));
+  EXPECT_GT(static_cast<double>(normals.bad), 0.95 * static_cast<double>(normals.of));
+  EXPECT_LT(positions.worst, 1e-6) << "roundings, no gaps";
+  EXPECT_EQ(row(results, "watertight").status, Status::kFinding);
+}
+
+TEST(Findings, OpenSubdivsTangentMaskIsWrongAtBoundaryVerticesOfFourAndFiveFacesOnly) {
+  for (int faces = 1; faces <= 5; ++faces) {
+    const auto results = audit("opensubdiv-far", "precision=double", fmt::format("fan:{}:1", faces), 1);
+    const Result& normals = row(results, "normals");
+    EXPECT_EQ(row(results, "positions").status, Status::kHeld) << faces;
+    EXPECT_EQ(normals.status, faces >= 4 ? Status::kFinding : Status::kHeld) << faces;
+    if (faces < 4) continue;
+    EXPECT_GT(normals.worst, 0.1) << faces;
+    ASSERT_TRUE(normals.witness.has_value());
+    EXPECT_TRUE(normals.witness->l1 == "0" && normals.witness->l2 == "0")
+        << "at the hub, corner 0 of its faces";
+  }
+}
+
+TEST(Findings, BfrIsDegenerateAtBoundaryCornersOfOneFace) {
+  for (const char* options : {"", "approx-level=3"}) {
+    const auto results = audit("opensubdiv-bfr", options, "fan:1", 3);
+    const Result& normals = row(results, "normals");
+    EXPECT_EQ(normals.status, Status::kFinding);
+    EXPECT_TRUE(!normals.worst || *normals.worst > 90) << *normals.worst;
+  }
+}
+
 TEST(Findings, RefinementLibrariesDeliverNoLimitPointsAndAreRightInWhatTheyDeliver) {
   for (const char* subject : {"cgal", "openmesh"}) {
     const auto results = audit(subject, "", "bumpy:200", 3);
@@ -79,6 +126,52 @@ std::vector<Result> audited(const AuditSubject& subject, const test::Named& shap
 
 bool corners_held(const data::ControlMesh& mesh) {
   return mesh.sharpness.boundary == data::Boundary::kEdgeAndCorner;
+}
+
+// Whether all edges are of one whole sharpness that falls, and vertices of whole ones.
+bool falls_in_whole_steps(const data::ControlMesh& mesh) {
+  std::set<float> of_edges, whole;
+  for (const data::SharpEdge& e : mesh.sharpness.edges) of_edges.insert(e.sharpness);
+  whole = of_edges;
+  for (const data::SharpVertex& v : mesh.sharpness.vertices) whole.insert(v.sharpness);
+  return of_edges.size() <= 1 && !of_edges.contains(test::kInfinite) &&
+         std::all_of(whole.begin(), whole.end(), [](float s) { return s == std::floor(s); });
+}
+
+// Neither engine of ours does semi-sharp edges of triangles: they say so, and are not asked.
+TEST(SharpSubjects, OurEnginesHaveNoFindingOnTriangles) {
+  int asked = 0;
+  for (const AuditSubject& subject : {AuditSubject{find_subject("sliding-window"), "precision=double"},
+                                      AuditSubject{find_subject("sliding-window"), "output=indexed"},
+                                      AuditSubject{find_subject("row-stream"), ""}})
+    for (const test::Named& shape : test::sharp_triangles()) {
+      const bool does = (sharp_kinds(shape.second, data::Scheme::kLoop) & LC_SHARP_SEMI) == 0;
+      const std::vector<Result> results = audited(subject, shape);
+      EXPECT_EQ(row(results, "tessellates").status, does ? Status::kHeld : Status::kNotSupported)
+          << subject.subject->name << " on " << shape.first << ": " << row(results, "tessellates").message;
+      for (const Result& r : results)
+        EXPECT_NE(r.status, Status::kFinding)
+            << subject.subject->name << " on " << shape.first << ", " << r.check << ": " << r.message;
+      asked += does;
+    }
+  EXPECT_GT(asked, 150);
+}
+
+// Row streaming takes each of them.
+TEST(SharpSubjects, OfOursHaveNoFindingOnPolygonsAndNaiveNoneOnTrianglesEither) {
+  using Shapes = std::vector<test::Named>;
+  for (const auto& [subject, shapes] : {std::pair<const char*, Shapes>{"row-stream", test::sharp_polygons()},
+                                        {"quad-model", test::sharp_polygons()},
+                                        {"naive", test::sharp_polygons()},
+                                        {"naive", test::sharp_triangles()}})
+    for (const test::Named& shape : shapes)
+      for (const Result& r : audited({find_subject(subject), ""}, shape)) {
+        EXPECT_NE(r.status, Status::kFinding) << subject << " on " << shape.first << ", " << r.check
+                                              << ", worst " << r.worst.value_or(-1) << ": " << r.message;
+        if (r.check == "tessellates" && std::string(subject) == "row-stream") {
+          EXPECT_EQ(r.status, Status::kHeld) << shape.first;
+        }
+      }
 }
 
 TEST(SharpSubjects, OpenSubdivsPatchesAreRightButAtDarts) {
@@ -100,6 +193,18 @@ TEST(SharpSubjects, OpenSubdivsPatchesAreRightButAtDarts) {
   }
   EXPECT_GT(held, 300);
   EXPECT_GT(darts, 60);
+}
+
+TEST(SharpSubjects, EmbreeIsRightWhereSharpnessFallsInWholeSteps) {
+  int judged = 0;
+  for (const test::Named& shape : test::sharp_polygons()) {
+    if (!corners_held(shape.second) || !falls_in_whole_steps(shape.second)) continue;
+    const auto results = audited({find_subject("embree"), ""}, shape);
+    const Result& positions = row(results, "positions");
+    EXPECT_EQ(positions.status, Status::kHeld) << shape.first << ", worst " << positions.worst.value_or(-1);
+    ++judged;
+  }
+  EXPECT_GT(judged, 30);
 }
 
 }  // namespace

@@ -335,7 +335,7 @@ Matching match(const RefinedComplex& expected, const Bare& t) {
   }
   std::vector<std::int32_t> any(count, -1);  // a vertex of each number
   for (std::int64_t v = 0; v < t.vertices; ++v) any[number[v]] = static_cast<std::int32_t>(v);
-  if (count < vertices && coincide(expected.mesh.positions)) {
+  if (count < vertices && coincide(expected.about)) {
     result.not_judged = true;
     return failed("points of the control mesh lie at one place, and so do points that were delivered apart");
   }

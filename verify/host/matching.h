@@ -42,11 +42,11 @@ struct Cells {
   Cells reversed() const;
 };
 
-/// The control mesh refined `depth` times. One thread may use it.
+/// The control mesh refined `depth` times; `about` is where the control mesh is at its vertices. One thread may use it.
 struct RefinedComplex {
-  ///   of      valid for the scheme
+  ///   mesh    valid for the scheme
   ///   depth   0 .. 15
-  RefinedComplex(const data::ControlMesh& of, data::Scheme scheme, int depth);
+  RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int depth);
 
   /// Where the limit surface is at a vertex.
   std::array<double, 3> on_surface(std::int32_t vertex) const;
@@ -58,9 +58,10 @@ struct RefinedComplex {
   std::vector<lc_provenance> place;   // of each side where it begins, on the face of its cell
   std::vector<std::int32_t> corner;   // of each side, to that place
   std::vector<std::int64_t> side_at;  // of each vertex one that begins there, or -1
-  const data::ControlMesh mesh;
+  std::vector<std::array<double, 3>> about;
 
  private:
+  const data::ControlMesh mesh_;
   const data::Scheme scheme_;
   mutable std::optional<reference::Surface> surface_;  // made when it is first asked
   mutable std::unordered_map<std::int32_t, std::array<double, 3>> known_;

@@ -9,8 +9,14 @@
 namespace limitcheck::verify {
 namespace {
 
+using Vector = std::array<double, 3>;
+
 std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+Vector mix(const Vector& a, const Vector& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }
 
 }  // namespace
@@ -56,21 +62,43 @@ Cells Cells::reversed() const {
   return other;
 }
 
-RefinedComplex::RefinedComplex(const data::ControlMesh& of, data::Scheme scheme, int steps_down)
-    : depth(steps_down), mesh(of), scheme_(scheme) {
+RefinedComplex::RefinedComplex(const data::ControlMesh& mesh, data::Scheme scheme, int steps_down)
+    : depth(steps_down), mesh_(mesh), scheme_(scheme) {
   const Lattice lattice(mesh, scheme, depth);
   const std::int64_t n = lattice.n();
   side_at.assign(static_cast<std::size_t>(lattice.size()), -1);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto size = static_cast<int>(mesh.faces[f].size());
+    const auto face = mesh.faces[f];
+    const auto size = static_cast<int>(face.size());
     const FaceDomain domain(scheme, size);
     const bool whole = depth == 0 && domain.parts() > 1;  // a cell that has the corners of the face
     const std::int64_t steps = whole ? 2 : n, most = domain.denominator(steps);
+    Vector middle{};
+    for (const std::int32_t v : face)
+      for (int axis = 0; axis < 3; ++axis) middle[axis] += mesh.positions[v][axis] / size;
+    const auto corner_position = [&](int k) { return mesh.positions[face[k]]; };
+    const auto about_of = [&](const FaceDomain::Point& p) {
+      const double u = static_cast<double>(p.i) / static_cast<double>(most),
+                   v = static_cast<double>(p.j) / static_cast<double>(most);
+      if (scheme == data::Scheme::kLoop) {
+        Vector sum{};
+        for (int axis = 0; axis < 3; ++axis)
+          sum[axis] = (1 - u - v) * corner_position(0)[axis] + u * corner_position(1)[axis] +
+                      v * corner_position(2)[axis];
+        return sum;
+      }
+      const Vector own = corner_position(p.part), after = corner_position(domain.next(p.part));
+      if (domain.parts() == 1)
+        return mix(mix(own, after, u), mix(corner_position(3), corner_position(2), u), v);
+      const Vector before = corner_position(domain.previous(p.part));
+      return mix(mix(own, mix(own, after, .5), u), mix(mix(own, before, .5), middle, u), v);
+    };
     const auto add = [&](FaceDomain::Point p) {  // the next corner of a cell
       p = domain.canonical(p, steps);
       const Lattice::Id id = lattice.id(static_cast<std::int32_t>(f), p, steps);
       if (side_at[id] < 0) {
         side_at[id] = std::ssize(place);
+        about.push_back(about_of(p));
         ++vertices;
       }
       place.push_back({static_cast<std::int32_t>(f), static_cast<std::uint32_t>(p.i),
@@ -102,10 +130,10 @@ RefinedComplex::RefinedComplex(const data::ControlMesh& of, data::Scheme scheme,
   cells.connect(std::ssize(side_at));
 }
 
-std::array<double, 3> RefinedComplex::on_surface(std::int32_t vertex) const {
+Vector RefinedComplex::on_surface(std::int32_t vertex) const {
   const auto [known, is_new] = known_.try_emplace(vertex);
   if (is_new) {
-    if (!surface_) surface_.emplace(mesh, scheme_);
+    if (!surface_) surface_.emplace(mesh_, scheme_);
     const std::int64_t side = side_at[vertex];
     const lc_provenance& p = place[side];
     const auto n = static_cast<double>(p.denominator);

@@ -3,6 +3,7 @@
 // unequal depths, with sharp edges, and with the corners of some faces turned.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class RowStreamGl : public testing::Test {
                                    const std::string& depths = "uniform", Level level = Level::kQuick) {
     AuditMesh audited{name, data::named_mesh(name)};
     audited.depths = depths;
+    audited.face_depth = face_depths(parse_depths(depths), audited.mesh, depth);
+    EXPECT_EQ(std::set(audited.face_depth.begin(), audited.face_depth.end()).size() > 1, depths != "uniform");
     return Auditor(depth, 1, {}, level).run({lc_subject_row_stream_gl(), options}, audited);
   }
   static void expect_held(const std::vector<Result>& results, const std::string& of) {

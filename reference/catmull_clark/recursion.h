@@ -56,7 +56,8 @@ class NaiveSubdivider {
 
 /// A mesh of polygons after `depth` steps, the textbook way: every point once. A quad has the lattice points
 /// (i, j), 0 <= i, j <= 2^depth, u = i / 2^depth and v = j / 2^depth. From one step on each corner of another face
-/// has a sub-quad of its own with 0 <= i, j <= 2^(depth-1). Vertices shared by faces appear once; the control vertices come first, in their order.
+/// has a sub-quad of its own with 0 <= i, j <= 2^(depth-1). Vertices shared by faces appear once; the control
+/// vertices come first, in their order.
 /// Built for double, Decimal50, Decimal100 and, without limits(), Rational.
 template <class N>
 class RefinedMesh {

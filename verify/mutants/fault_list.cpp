@@ -17,6 +17,10 @@ extern const char kFaults[];  // generated from it
 
 namespace {
 
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::logic_error("faults.txt: " + what);
+}
+
 // The words at the end of a line.
 void read_words(const std::string& words, Change& c) {
   static const std::map<std::string, bool Change::*> kFlags{
@@ -32,8 +36,10 @@ void read_words(const std::string& words, Change& c) {
       c.claim = word;
     else if (word.starts_with("of="))
       c.of = word.substr(3);
-    else
+    else if (word.find('=') != std::string::npos)
       c.options = word;
+    else
+      refuse("what is " + word + "?");
   }
 }
 
@@ -46,7 +52,8 @@ const std::vector<Change>& section(const std::string& name) {
     std::smatch part;
     for (std::string line; std::getline(in, line);) {
       if (line.starts_with('[')) to = line;
-      if (to.empty() || !std::regex_match(line, part, line_of)) continue;
+      if (line.empty() || line.starts_with('#') || line == to) continue;
+      if (!std::regex_match(line, part, line_of)) refuse("no name, row and description: " + line);
       Change& c = sections[to].emplace_back();
       c.name = part.str(1), c.check = part.str(2), c.description = part.str(3);
       read_words(part.str(4), c);
@@ -61,7 +68,7 @@ const std::vector<Change>& section(const std::string& name) {
 Change rows::row(std::string_view name) {
   const std::vector<Change>& all = section("[faults and habits]");
   const auto found = std::ranges::find(all, name, &Change::name);
-  if (found == all.end()) throw std::logic_error(fmt::format("faults.txt has no line of {}", name));
+  if (found == all.end()) refuse(fmt::format("no line of {}", name));
   return *found;
 }
 

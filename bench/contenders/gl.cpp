@@ -1,46 +1,30 @@
 // SPDX-License-Identifier: MIT
-#include <numeric>
+#include <memory>
 #include <vector>
 
 #include "bench/contenders/contender.h"
-#include "fast/stream/row_stream.h"
 #include "verify/gl/context.h"
-#include "verify/gl/resident_points.h"
+#include "verify/gl/resident_frame.h"
 
 namespace limitcheck::bench {
 
 namespace {
 
-namespace rs = fast::row_stream;
-
 class OnGpu final : public Contender {
  public:
-  template <class Stream, class Item>
-  OnGpu(const Stream& stream, const std::vector<Item>& items, int depth)
-      : points_(stream.rings(), items, depth),
-        evaluated_(static_cast<double>(items.size()) * rs::side(depth) * rs::side(depth)) {}
+  OnGpu(const data::ControlMesh& mesh, int depth) : frame_(mesh, {.scheme = data::natural_scheme(mesh)}) {
+    // Faces that are no quads are cut into quads a level less deep.
+    const std::vector<std::int32_t> depths(mesh.faces.size(), depth);
+    evaluated_ = static_cast<double>(frame_.plan(depths).limit_points);
+  }
 
-  void run() override { points_.run(); }
+  void run() override { frame_.run(); }
   double evaluated() const override { return evaluated_; }
 
  private:
-  verify::ResidentPoints points_;
+  verify::ResidentFrame frame_;
   double evaluated_;
 };
-
-std::unique_ptr<Contender> made(const data::ControlMesh& mesh, int depth) {
-  if (data::natural_scheme(mesh) == data::Scheme::kCatmullClark) {
-    const fast::QuadMesh quads(mesh);
-    const rs::QuadRowStream stream(quads);
-    std::vector<std::int32_t> faces(mesh.faces.size());
-    std::iota(faces.begin(), faces.end(), 0);
-    return std::make_unique<OnGpu>(stream, stream.sorted(faces), depth);
-  }
-  const fast::Adjacency adjacency(mesh);
-  const std::vector<std::int32_t> depths(mesh.faces.size(), depth);
-  return std::make_unique<OnGpu>(rs::RowStream(mesh, adjacency), fast::pair_faces(adjacency, depths).grids,
-                                 depth);
-}
 
 }  // namespace
 
@@ -52,7 +36,7 @@ Route row_stream_by_gl() {
           software ? 1000. : .1,
           24,
           false,
-          [](const auto& mesh, int depth, int) { return made(mesh, depth); },
+          maker<OnGpu>(),
           true};
 }
 

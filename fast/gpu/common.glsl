@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What all shaders of this folder have: their bits are those of the kernels of fast/stream/kernel on a number
 // that has no fused multiply-add. All sums are precise, so that no compiler fuses or reorders them. The host
-// defines LANES, LOCAL: whether edges and grids have origins of their own, and where things lie in `memory`,
-// MEMORY numbers in all (shaders.h).
+// defines LANES, LOCAL: whether edges and grids have origins of their own, PLACED and COMPACT: the Output, and where
+// things lie in `memory`, MEMORY numbers in all (shaders.h).
 
 layout(local_size_x = LANES) in;
 shared float memory[MEMORY];
@@ -20,7 +20,21 @@ layout(std140, binding = 0) uniform Batch {
 };
 int group() { return first_group + int(gl_WorkGroupID.x); }
 layout(std430, binding = 1) readonly buffer Given { float given[]; };  // corner blocks, see layout.h
-layout(std430, binding = 2) writeonly buffer Points { float points[]; };  // six numbers a vertex
+
+// Vertices: position and normal, or position and both numbers of the normal's place on an octahedron (CompactVertex).
+#if COMPACT
+const int kNumbers = 4;
+layout(std430, binding = 2) writeonly buffer Points { uint points[]; };
+#else
+const int kNumbers = 6;
+layout(std430, binding = 2) writeonly buffer Points { float points[]; };
+#endif
+#if PLACED
+layout(std430, binding = 5) readonly buffer Places { int places[]; };  // the first vertex of what each group makes
+int first_vertex(int made) { return places[group()]; }
+#else
+int first_vertex(int made) { return group() * made; }
+#endif
 
 int N = 1 << depth;
 int lane() { return int(gl_LocalInvocationID.x); }
@@ -60,17 +74,37 @@ vec3 middle(int own, vec3 p, vec3 q) {
   return given[own] == 0.0 ? vec3(0.0) : middle(p, q);
 }
 
+#if COMPACT
+uint packed_normal(vec3 n) {
+  precise float inverse = 1.0 / (abs(n.x) + abs(n.y) + abs(n.z));
+  precise vec2 p = n.xy * inverse, folded = 1.0 - abs(p.yx);
+  if (n.z < 0.0) p = mix(folded, -folded, lessThan(n.xy, vec2(0.0)));
+  precise vec2 scaled = 32767.0 * p;
+  ivec2 whole = ivec2(roundEven(scaled));
+  return (uint(whole.x) & 0xffffu) | uint(whole.y) << 16;
+}
+uint staged(int k) {
+  int vertex = STAGED + 6 * (k / 4), part = k % 4;
+  return part < 3 ? floatBitsToUint(memory[vertex + part]) : packed_normal(load(vertex + 3));
+}
+#else
+float staged(int k) { return memory[STAGED + k]; }
+#endif
+
 // A row on its way out: staged, so that neighbouring lanes write neighbouring numbers.
 void stage(int i, Vertex v) {
   store(STAGED + 6 * i, v.position);
   store(STAGED + 6 * i + 3, v.normal);
 }
-void put_staged(int row) {
+void put_staged_row(int j) {
   barrier();
-  for (int k = lane(); k < 6 * (N + 1); k += LANES) points[6 * (N + 1) * row + k] = memory[STAGED + k];
+  int to = kNumbers * (first_vertex((N + 1) * (N + 1)) + (N + 1) * j);
+  for (int k = lane(); k < kNumbers * (N + 1); k += LANES) points[to + k] = staged(k);
 }
+#if !COMPACT
 void put(int i, Vertex v) {
   int to = 6 * i;
   points[to] = v.position.x, points[to + 1] = v.position.y, points[to + 2] = v.position.z;
   points[to + 3] = v.normal.x, points[to + 4] = v.normal.y, points[to + 5] = v.normal.z;
 }
+#endif

@@ -75,6 +75,6 @@ void main() {
       }
       stage(i, v);
     }
-    put_staged((N + 1) * group() + j);
+    put_staged_row(j);
   }
 }

@@ -59,6 +59,6 @@ void main() {
     if (i == 0 || i == N) v = at_corner(at, i == 0 ? p : q);
     else if (polynomial) v = curve_point(STAGED, i);
     else v = line_limit(ivec3(m - 3, m, m + 3), -kRow, kRow, sharp_side, true, centre);
-    put(group() * (N + 1) + i, v);
+    put(first_vertex(N + 1) + i, v);
   }
 }

@@ -96,7 +96,7 @@ void put_row(int at, int j, vec3 centre) {
     }
     stage(i, v);
   }
-  put_staged((N + 1) * group() + j);
+  put_staged_row(j);
 }
 
 void main() {

@@ -6,7 +6,7 @@ namespace limitcheck::fast::gpu {
 // The .glsl files beside this one.
 namespace text {
 extern const char kCommon[], kTriangleRules[], kTriangleGrids[], kTriangleEdges[], kQuadRules[], kQuads[],
-    kQuadSides[], kQuadPatches[];
+    kQuadSides[], kQuadPatches[], kCopies[];
 }
 
 BatchUniforms BatchUniforms::of(int depth, const Placement<float>& placement, int lanes) {
@@ -56,7 +56,7 @@ std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes) {
   return all;
 }
 
-std::string source(Shader shader, int most, bool local) {
+std::string source(Shader shader, int most, bool local, Output output) {
   const SharedMemory memory = SharedMemory::of(shader, most);
   std::string code = "#version 430\n";
   const auto define = [&](const char* name, int value) {
@@ -64,6 +64,8 @@ std::string source(Shader shader, int most, bool local) {
   };
   define("LANES", kLanes);
   define("LOCAL", local ? 1 : 0);
+  define("PLACED", output != Output::kInOrder ? 1 : 0);
+  define("COMPACT", output == Output::kPlacedCompact ? 1 : 0);
   define("BORDERS", memory.borders);
   define("STAGED", memory.staged);
   define("MEMORY", memory.size);
@@ -81,6 +83,8 @@ std::string source(Shader shader, int most, bool local) {
       return with(text::kQuadRules, text::kQuadSides);
     case Shader::kQuadPatches:
       return with(text::kQuadRules, text::kQuadPatches);
+    case Shader::kCopies:
+      return with("", text::kCopies);
   }
   return code;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,7 +14,11 @@
 
 namespace limitcheck::fast::gpu {
 
-enum class Shader : std::uint8_t { kTriangleGrids, kTriangleEdges, kQuads, kQuadSides, kQuadPatches };
+enum class Shader : std::uint8_t { kTriangleGrids, kTriangleEdges, kQuads, kQuadSides, kQuadPatches, kCopies };
+
+/// Where a work group puts its vertices and in which form: as many as it makes after those of the groups before it; or
+/// from the place on that `Places` of common.glsl names; or there in 16 bytes (CompactVertex), but edges and sides.
+enum class Output : std::uint8_t { kInOrder, kPlaced, kPlacedCompact };
 
 /// At depth 8 a grid needs 27 KB of shared memory and a quad 30, at depth 9 it would be 52: OpenGL promises
 /// 32.
@@ -55,6 +60,8 @@ struct SharedMemory {
                         row_stream::QuadCurve::kSize);
       case Shader::kQuadPatches:
         return laid_out(48 + 4 * row_stream::QuadCurve::kSize + 24, 0, 0, row);
+      case Shader::kCopies:
+        return {0, 0, 6 * kLanes};
     }
     return {};
   }
@@ -72,7 +79,7 @@ struct alignas(16) BatchUniforms {
   std::int32_t depth = 0;
   std::int32_t first_group = 0;
 
-  bool operator==(const BatchUniforms&) const = default;
+  auto operator<=>(const BatchUniforms&) const = default;
   static BatchUniforms of(int depth, const Placement<float>& placement, int lanes);
   static BatchUniforms of(const row_stream::QuadBatch<float>& batch, const Placement<float>& placement,
                           int lanes, int sides);
@@ -87,9 +94,15 @@ struct EdgeEnds {
 std::vector<EdgeEnds> edges_of_grids(int depth, int lanes);
 std::vector<EdgeEnds> edges_by_themselves(int depth, int lanes);
 
+/// A vertex of a frame that is no point of a whole grid: where it goes, and which three numbers of `given` are its position
+/// and which its normal.
+struct alignas(16) Copy {
+  std::int32_t to, position, normal;
+};
+
 /// A shader as OpenGL and Vulkan take it.
 ///   most    the largest depth that its memory is enough for
 ///   local   edges and grids have origins of their own, see row_stream::Part
-std::string source(Shader shader, int most, bool local);
+std::string source(Shader shader, int most, bool local, Output output = Output::kInOrder);
 
 }  // namespace limitcheck::fast::gpu

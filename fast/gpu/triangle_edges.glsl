@@ -77,6 +77,6 @@ void main() {
     } else {
       v = limit_rule(load(line_of(depth) + 3 * i), hexagon(depth, i), centre);
     }
-    put(group() * (N + 1) + i, v);
+    put(first_vertex(N + 1) + i, v);
   }
 }

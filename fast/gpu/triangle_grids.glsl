@@ -106,7 +106,7 @@ void put_row(int j, vec3 centre) {
     else v = limit_rule(load(m), hexagon(s, m, n, axis(i, j, N)), centre);
     stage(i, v);
   }
-  put_staged((N + 1) * group() + j);
+  put_staged_row(j);
 }
 
 void main() {

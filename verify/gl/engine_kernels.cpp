@@ -36,19 +36,15 @@ constexpr std::size_t side(int depth) {
 // As the shaders declare them.
 enum Binding : GLuint { kUniforms = 0, kGiven = 1, kPoints = 2, kBorders = 3, kEnds = 3, kEdgeOf = 4 };
 
-// What is kept in the context, which lives as long as the process.
-struct Kept {
-  std::map<std::tuple<Shader, int, bool>, std::unique_ptr<GlProgram>> programs;
-  std::array<GLuint, 5> buffers{};
-};
+// Kept in the context, which lives as long as the process.
+using Buffers = std::array<GLuint, 5>;
 
 class Pass {
  public:
   Pass(int depth, bool local, const BatchUniforms& batch, const float* given, int numbers)
       : depth_(depth), local_(local) {
     if (depth > fast::gpu::kMaxDepth) throw data::ArgumentError("row streaming on a GPU: depth is 0 to 8");
-    if (kept().buffers[0] == 0)
-      glGenBuffers(static_cast<GLsizei>(kept().buffers.size()), kept().buffers.data());
+    if (kept()[0] == 0) glGenBuffers(static_cast<GLsizei>(kept().size()), kept().data());
     put(GL_UNIFORM_BUFFER, 0, kUniforms, &batch, sizeof batch);
     put(GL_SHADER_STORAGE_BUFFER, 1, kGiven, given, 4 * static_cast<std::size_t>(numbers) * kBatch);
   }
@@ -61,17 +57,12 @@ class Pass {
   }
   /// So many work groups, each of which makes so many rows of points. What the last ones made they find at kBorders.
   void run(Shader shader, std::size_t groups, std::size_t rows) {
-    const int most = fast::gpu::compiled_for(depth_);
-    std::unique_ptr<GlProgram>& program = kept().programs[{shader, most, local_}];
-    if (program == nullptr)
-      program = std::make_unique<GlProgram>(
-          std::vector<GlProgram::Stage>{{GL_COMPUTE_SHADER, fast::gpu::source(shader, most, local_)}},
-          "row streaming");
-    program->use();
-    if (numbers_ > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBorders, kept().buffers[3]);
+    const GlProgram& program = engine_program(shader, depth_, local_, fast::gpu::Output::kInOrder);
+    program.use();
+    if (numbers_ > 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kBorders, kept()[3]);
     numbers_ = 6 * groups * rows * side(depth_);
     put(GL_SHADER_STORAGE_BUFFER, times_++ == 0 ? 3 : 4, kPoints, nullptr, 4 * numbers_);
-    program->compute(static_cast<std::int64_t>(groups) * fast::gpu::kLanes);
+    program.compute(static_cast<std::int64_t>(groups) * fast::gpu::kLanes);
   }
   /// What was made last. Of this thread, until it asks for others.
   std::span<const float> points() const {
@@ -83,12 +74,12 @@ class Pass {
   }
 
  private:
-  static Kept& kept() {
-    static auto* const all = new Kept;  // the driver may be gone when objects of static storage go
-    return *all;
+  static Buffers& kept() {
+    static Buffers all{};
+    return all;
   }
   static void put(GLenum kind, std::size_t buffer, GLuint binding, const void* from, std::size_t bytes) {
-    glBindBufferBase(kind, binding, kept().buffers[buffer]);
+    glBindBufferBase(kind, binding, kept()[buffer]);
     glBufferData(kind, static_cast<GLsizeiptr>(bytes), from, GL_STREAM_DRAW);
   }
 
@@ -161,6 +152,18 @@ const char* run_quads(const rs::QuadBatch<float>& batch, const Placement& placem
 }
 
 }  // namespace
+
+const GlProgram& engine_program(Shader shader, int depth, bool local, fast::gpu::Output output) {
+  using Programs = std::map<std::tuple<Shader, int, bool, fast::gpu::Output>, std::unique_ptr<GlProgram>>;
+  static auto* const all = new Programs;  // the driver may be gone when objects of static storage go
+  const int most = fast::gpu::compiled_for(depth);
+  std::unique_ptr<GlProgram>& program = (*all)[{shader, most, local, output}];
+  if (program == nullptr) {
+    const std::string text = fast::gpu::source(shader, most, local, output);
+    program = std::make_unique<GlProgram>(std::vector<GlProgram::Stage>{{GL_COMPUTE_SHADER, text}}, "row streaming");
+  }
+  return *program;
+}
 
 EngineKernels engine_kernels_by_gl() {
   static const rs::Kernel triangles{kName, kBatch, false, &run_grids, &run_edges, nullptr};

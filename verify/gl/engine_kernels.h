@@ -7,6 +7,11 @@
 
 namespace limitcheck::verify {
 
+class GlProgram;
+
+/// A shader of the engine, compiled when it is first asked for; it stays as long as the process. In a context that is current.
+const GlProgram& engine_program(fast::gpu::Shader shader, int depth, bool local, fast::gpu::Output output);
+
 struct EngineKernels {
   const fast::row_stream::Kernel& triangles;
   const fast::row_stream::QuadKernel& quads;

@@ -15,7 +15,6 @@
 #include "fast/plan/pairing.h"
 #include "fast/stream/row_stream.h"
 #include "verify/gl/engine_kernels.h"
-#include "verify/gl/resident_points.h"
 #include "verify/shared_bits/test_support/unfused.h"
 
 namespace limitcheck::fast::row_stream {
@@ -67,34 +66,6 @@ TEST_F(GlKernel, HasThemWhereSomeEdgesHaveOriginsOfTheirOwn) {
     EXPECT_EQ(mesh.differ, 0) << "depth " << depth << " of " << mesh.compared;
     EXPECT_TRUE(mesh.local > 0 && mesh.local < mesh.items) << mesh.local << " of " << mesh.items;
   }
-}
-
-// All grids of a mesh in the device's memory, in three parts, with the kernel's own points.
-TEST_F(GlKernel, HasTheSameBitsWhereAllGridsAreResident) {
-  for (const char* name : {"bumpy:200", "stretched:4:bumpy:200"})
-    for (const int depth : {2, 4}) {  // origins of none, or of some, and of all
-      const auto mesh = data::named_mesh(name);
-      const Adjacency adjacency(mesh);
-      const RowStream stream(mesh, adjacency, gl());
-      const std::vector<Grid> grids =
-          pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
-      std::vector<Vertex> expected(grids.size() * static_cast<std::size_t>(side(depth) * side(depth)));
-      Workspace workspace;
-      stream.whole(grids, depth, workspace, expected.data());
-      std::vector<float> all;
-      std::size_t parts = 0;
-      const verify::ResidentPoints resident(stream.rings(), grids, depth, 40);
-      for (int times = 0; times < 2; ++times) {
-        all.clear(), parts = 0;
-        resident.run([&](std::span<const float> some) {
-          all.insert(all.end(), some.begin(), some.end());
-          ++parts;
-        });
-      }
-      EXPECT_GE(parts, 3U);
-      ASSERT_EQ(all.size(), 6 * expected.size());
-      EXPECT_EQ(std::memcmp(all.data(), expected.data(), 4 * all.size()), 0) << name << depth;
-    }
 }
 
 // So the comparison above sees a fused product: what the processor ships differs.

@@ -13,7 +13,6 @@
 
 #include "fast/stream/row_stream.h"
 #include "verify/gl/engine_kernels.h"
-#include "verify/gl/resident_points.h"
 #include "verify/shared_bits/test_support/unfused_quads.h"
 
 namespace limitcheck::fast::row_stream {
@@ -58,29 +57,6 @@ TEST_F(GlQuadKernel, HasThemAtGreatDepths) {
   for (const char* name : {"quad-fan:3", "creased-cube"}) expect_equal_bits(name, 5);
   for (const char* name : {"quad-fan:4", "quad-torus:4:3"}) expect_equal_bits(name, 7);
   for (const char* name : {"quad-fan:1", "quad-torus:4:3", "open-crease"}) expect_equal_bits(name, 8);
-}
-
-// All quads of a mesh in the device's memory, in parts, in runs of batches that are alike.
-TEST_F(GlQuadKernel, HasTheSameBitsWhereAllQuadsAreResident) {
-  for (const char* name : {"mixed:1:60", "quad-torus:9:9", "dual:bumpy:60", "stretched:4:pawn"})
-    for (const int depth : {2, 4}) {
-      const QuadMesh quads(data::named_mesh(name));
-      const QuadRowStream stream(quads, verify::engine_kernels_by_gl().quads);
-      std::vector<std::int32_t> faces(static_cast<std::size_t>(quads.adjacency.face_count()));
-      std::iota(faces.begin(), faces.end(), 0);
-      faces = stream.sorted(faces);
-      const verify::ResidentPoints resident(stream.rings(), faces, depth, 40);
-      std::vector<float> all;
-      resident.run([&](std::span<const float> some) { all.insert(all.end(), some.begin(), some.end()); });
-      std::stable_partition(faces.begin(), faces.end(),
-                            [&](std::int32_t f) { return stream.rings().kind(f) == QuadClass::kRegular; });
-      std::vector<Vertex> expected(faces.size() * static_cast<std::size_t>(side(depth) * side(depth)));
-      Workspace workspace;
-      stream.whole(faces, depth, workspace, expected.data());
-      ASSERT_GT(faces.size(), 80U) << name;
-      ASSERT_EQ(all.size(), 6 * expected.size());
-      EXPECT_EQ(std::memcmp(all.data(), expected.data(), 4 * all.size()), 0) << name << depth;
-    }
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Kernels that compute nothing: they keep what they are asked for, and put names where points would go.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "fast/gpu/shaders.h"
+#include "fast/stream/kernel/targets.h"
+
+namespace limitcheck::verify {
+
+/// While it lives, a frame of a StreamTessellator that has its kernels is planned but not evaluated: `batches` gets what is
+/// to be evaluated, and each vertex of the frame is a whole grid's, of which nothing is written, or has names in the place of
+/// a position and of a normal, or is what the processor itself has computed. One at a time, in the whole process.
+class FrameRecorder {
+ public:
+  static constexpr std::size_t kLanes = fast::row_stream::kMaxLanes;
+
+  struct Batch {
+    fast::gpu::Shader shader;
+    bool local;   // some part has an origin of its own
+    bool placed;  // whole grids, each at its place
+    fast::gpu::BatchUniforms uniforms;
+    std::vector<float> input;                // kLanes side by side
+    std::int64_t first = 0;                  // not placed: the number of its first vertex, lane after lane
+    std::array<const float*, kLanes> place;  // placed: of each lane; the last ones may be the same
+  };
+
+  /// The kernels of the recorder that lives. They refuse depths beyond fast::gpu::kMaxDepth with data::ArgumentError.
+  static const fast::row_stream::Kernel& triangles();
+  static const fast::row_stream::QuadKernel& quads();
+
+  FrameRecorder();
+  ~FrameRecorder();
+  FrameRecorder(const FrameRecorder&) = delete;
+  FrameRecorder& operator=(const FrameRecorder&) = delete;
+
+  /// The number that a position or normal stands for, if it is a name: twice that of the vertex, and one more for the normal.
+  static std::optional<std::int64_t> named(const fast::Vec3<float>& v);
+
+  std::vector<Batch> batches;
+  std::int64_t vertices = 0;  // of those that are not placed
+
+ private:
+  friend struct RecordingKernels;
+  std::int64_t add(Batch batch, const float* input, int numbers, int rows);
+
+  std::lock_guard<std::mutex> alone_;
+  std::mutex adding_;
+};
+
+}  // namespace limitcheck::verify

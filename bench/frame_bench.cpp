@@ -8,6 +8,8 @@
 //   deforming             as patches, but the control points move before each frame
 //   deforming:depths, still:depths   the same at given depths, with and without moving
 //   bfr                   OpenSubdiv's Bfr, the points of the same faces at the same depths
+// With --gl alone, by OpenGL's device, whose memory keeps the points:
+//   gl, gl-compact, gl-kept, gl-deforming   as those above
 // And what a frame costs before its first point is computed: adjacency, rings, the per-mesh part of the heuristics, the
 // depths of one view, the pairing. Names: stage/variant/bumpy/faces:N; `per_face` is the time per control face.
 #include <benchmark/benchmark.h>
@@ -17,6 +19,7 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,6 +28,7 @@
 #include "fast/plan/printed_rules.h"
 #include "fast/stream/gather/rings.h"
 #include "fast/stream/stream_tessellator.h"
+#include "verify/gl/resident_frame.h"
 
 namespace {
 
@@ -62,22 +66,6 @@ void count(benchmark::State& state, double triangles, Counter::Flags flags) {
   state.counters["triangles/s"] = Counter(triangles, flags);
 }
 
-template <class Output>
-void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
-  fast::row_stream::StreamTessellator tessellator(bumpy(c.faces), {.threads = threads});
-  fast::FrameStats stats;
-  double triangles = 0;
-  for (std::int64_t i = 0; i < 360; i += 30) tessellator.frame(c.strategy, turned(i, 1), out);
-  for (std::int64_t i = -20; i < 0; ++i) tessellator.frame(c.strategy, turned(i, degrees), out);
-  std::int64_t i = 0;
-  for (auto _ : state) {
-    stats = tessellator.frame(c.strategy, turned(i++, degrees), out);
-    triangles += static_cast<double>(stats.triangles);
-    benchmark::ClobberMemory();
-  }
-  count(state, triangles, Counter::kIsRate);
-}
-
 // The mesh breathes: its points move along their own directions, by up to a twentieth.
 std::vector<std::vector<std::array<double, 3>>> breaths(const data::ControlMesh& mesh) {
   std::vector<std::vector<std::array<double, 3>>> all(16, mesh.positions);
@@ -87,6 +75,38 @@ std::vector<std::vector<std::array<double, 3>>> breaths(const data::ControlMesh&
       for (double& x : p) x *= 1 + .05 * std::sin(phase);
     }
   return all;
+}
+
+/// show(strategy, camera): a frame, returns its FrameStats.
+template <class Show>
+void shown(benchmark::State& state, const Case& c, double degrees, const Show& show) {
+  double triangles = 0;
+  for (std::int64_t i = 0; i < 360; i += 30) show(c.strategy, turned(i, 1));
+  for (std::int64_t i = -20; i < 0; ++i) show(c.strategy, turned(i, degrees));
+  std::int64_t i = 0;
+  for (auto _ : state) {
+    triangles += static_cast<double>(show(c.strategy, turned(i++, degrees)).triangles);
+    benchmark::ClobberMemory();
+  }
+  count(state, triangles, Counter::kIsRate);
+}
+
+template <class Output>
+void frames(benchmark::State& state, const Case& c, int threads, Output out = {}, double degrees = 1) {
+  fast::row_stream::StreamTessellator tessellator(bumpy(c.faces), {.threads = threads});
+  shown(state, c, degrees, [&](const auto&... wanted) { return tessellator.frame(wanted..., out); });
+}
+
+void frames_by_gl(benchmark::State& state, const Case& c, const fast::PatchOptions& form, bool moves) {
+  verify::ResidentFrame frame(bumpy(c.faces), {}, form);
+  const auto points = breaths(bumpy(c.faces));
+  std::size_t i = 0;
+  shown(state, c, 1, [&](const auto&... wanted) {
+    if (moves) frame.move_points(points[++i % points.size()]);
+    const fast::FrameStats stats = frame.plan(wanted...);
+    frame.run();
+    return stats;
+  });
 }
 
 /// `moves`: else the frames are as they would be if the points had not moved.
@@ -180,8 +200,20 @@ void add_set_ups() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const bool gl = argc > 1 && std::string_view(argv[1]) == "--gl";
+  if (gl) argv[1] = argv[0], ++argv, --argc;
   for (const Case& c : cases()) {
     const std::string name = c.name + "/faces:" + std::to_string(c.faces);
+    if (gl) {
+      const auto by_gl = [&](const char* form, const fast::PatchOptions& with, bool moves) {
+        add(form + ("/" + name), [=](auto& s) { frames_by_gl(s, c, with, moves); });
+      };
+      by_gl("gl", {}, false);
+      by_gl("gl-compact", {.compact = true}, false);
+      by_gl("gl-kept", {.incremental = true}, false);
+      by_gl("gl-deforming", {}, true);
+      continue;
+    }
     for (const int threads : {1, 2})
       add("draw/" + name + "/threads:" + std::to_string(threads),
           [=](auto& s) { frames<fast::DrawList<float>>(s, c, threads); });
@@ -203,7 +235,7 @@ int main(int argc, char** argv) {
     add("bfr/" + name + "/threads:1", [=](auto& s) { bfr(s, c); });
     add("indexed/" + name + "/threads:1", [=](auto& s) { frames<fast::IndexedMesh<float>>(s, c, 1); });
   }
-  add_set_ups();
+  if (!gl) add_set_ups();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -84,6 +84,7 @@ class PatchMesh {
   std::span<const PatchDraw> draws() const { return draws_; }
   /// All vertices, those of no draw as well, in one form or the other; provenance likewise, or none.
   std::span<const SurfaceVertex<Real>> vertices() const { return vertices_; }
+  std::span<SurfaceVertex<Real>> vertices() { return vertices_; }  // for who changes them after a frame
   std::span<const CompactVertex> compact_vertices() const { return compact_; }
   std::span<const LatticePoint> provenance() const { return provenance_; }
   /// The patterns, which are added to from frame to frame and never change; and the same as 16 bits, if so

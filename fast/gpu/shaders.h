@@ -14,7 +14,14 @@
 
 namespace limitcheck::fast::gpu {
 
-enum class Shader : std::uint8_t { kTriangleGrids, kTriangleEdges, kQuads, kQuadSides, kQuadPatches, kCopies };
+enum class Shader : std::uint8_t {
+  kTriangleGrids,
+  kTriangleEdges,
+  kQuads,
+  kQuadSides,
+  kQuadPatches,
+  kCopies
+};
 
 /// Where a work group puts its vertices and in which form: as many as it makes after those of the groups before it; or
 /// from the place on that `Places` of common.glsl names; or there in 16 bytes (CompactVertex), but edges and sides.
@@ -23,9 +30,9 @@ enum class Output : std::uint8_t { kInOrder, kPlaced, kPlacedCompact };
 /// At depth 8 a grid needs 27 KB of shared memory and a quad 30, at depth 9 it would be 52: OpenGL promises
 /// 32.
 inline constexpr int kMaxDepth = 8;
-/// Each shader is there for all depths to 4, to 6 and to 8: more memory than a depth needs leaves fewer groups at work.
+/// Each shader is there for all depths to 4, for 5, 6, and to 8: more memory than a depth needs leaves fewer groups at work.
 constexpr int compiled_for(int depth) {
-  return depth <= 4 ? 4 : depth <= 6 ? 6 : kMaxDepth;
+  return depth <= 4 ? 4 : depth <= 6 ? depth : kMaxDepth;
 }
 /// Lanes of a work group: a warp of one maker's, half a wave or a whole one of another's.
 inline constexpr int kLanes = 32;

@@ -15,7 +15,7 @@
 #include "verify/cli/mesh_options.h"
 #include "verify/cli/screen.h"
 #include "verify/gl/context.h"
-#include "verify/gl/engine_kernels.h"
+#include "verify/gl/recorded_points.h"
 #include "verify/host/host.h"
 #include "verify/mesh_output/mesh_output.h"
 
@@ -136,10 +136,8 @@ class Lap {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Throws data::ArgumentError where there is no OpenGL.
-std::optional<verify::EngineKernels> kernels(const TessellateArguments& a) try {
-  return a.gpu ? std::optional(verify::engine_kernels_by_gl()) : std::nullopt;
-} catch (const std::runtime_error& error) {
+// Throws data::ArgumentError where there is none.
+void require_gl() try { const verify::CurrentGl there_is_one; } catch (const std::runtime_error& error) {
   throw data::ArgumentError(fmt::format("--gpu: {}", error.what()));
 }
 
@@ -153,16 +151,18 @@ Outcome run(const TessellateArguments& a, const OpenedMesh& opened, const fast::
   Outcome out;
   const auto frame = [&](auto&& tessellator) {
     timings.prepare = lap();
-    out.stats = tessellator.frame(options, view, out.mesh);
+    out.stats = a.gpu ? verify::frame_by_gl(tessellator, out.mesh, options, view)
+                      : tessellator.frame(options, view, out.mesh);
     out.depth = tessellator.last_pairing().depth;
     lap();
     return std::move(out);
   };
   if (a.sliding_window) return frame(fast::Tessellator<float>(mesh, engine));
   namespace rs = fast::row_stream;
-  const std::optional<verify::EngineKernels> gpu = kernels(a);
-  rs::StreamTessellator stream(mesh, engine, gpu ? gpu->triangles : rs::kernels().front(),
-                               gpu ? &gpu->quads : nullptr);
+  if (a.gpu) require_gl();
+  rs::StreamTessellator stream(mesh, engine,
+                               a.gpu ? verify::FrameRecorder::triangles() : rs::kernels().front(),
+                               a.gpu ? &verify::FrameRecorder::quads() : nullptr);
   const std::string text = fmt::format("tessellating {} faces", mesh.faces.size());
   stream.on_progress(
       [&](std::size_t done, std::size_t total) { progress.show(total + done, 3 * total, text); });

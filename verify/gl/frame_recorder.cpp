@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verify/gl/frame_recorder.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -71,16 +72,18 @@ struct RecordingKernels {
   static const char* run(float* input, int depth, const Placement& placement, float* /*work*/,
                          const rs::Target<float>& target) {
     const int rows = (1 << depth) + 1;
-    const std::int64_t first = current->add(of(Shader::kTriangleGrids, depth, placement), input,
-                                            rs::input_size(depth), rows);
-    put_names(first, depth, rows, [&](int lane) { return target.base + lane * target.lane_stride; }, target);
+    const std::int64_t first =
+        current->add(of(Shader::kTriangleGrids, depth, placement), input, rs::input_size(depth), rows);
+    put_names(
+        first, depth, rows, [&](int lane) { return target.base + lane * target.lane_stride; }, target);
     return kKernel;
   }
-  static void run_edges(const float* input, int depth, const Placement& placement, float* /*work*/, float* out,
-                        std::ptrdiff_t lane_stride) {
-    const std::int64_t first = current->add(of(Shader::kTriangleEdges, depth, placement), input,
-                                            rs::edge_input_size(depth), 1);
-    put_names(first, depth, 1, [&](int lane) { return out + lane * lane_stride; }, rs::Target<float>{});
+  static void run_edges(const float* input, int depth, const Placement& placement, float* /*work*/,
+                        float* out, std::ptrdiff_t lane_stride) {
+    const std::int64_t first =
+        current->add(of(Shader::kTriangleEdges, depth, placement), input, rs::edge_input_size(depth), 1);
+    put_names(
+        first, depth, 1, [&](int lane) { return out + lane * lane_stride; }, rs::Target<float>{});
   }
   static void run_lines(float* input, int depth, const Placement& placement, float* /*work*/,
                         float* const* lane, fast::Stores /*stores*/) {
@@ -92,7 +95,8 @@ struct RecordingKernels {
     const int rows = shader == Shader::kQuadSides ? 1 : (1 << batch.depth) + 1;
     const std::int64_t first =
         current->add(of(shader, batch, placement), batch.input, rs::quad_input_size(batch.depth), rows);
-    put_names(first, batch.depth, rows, [&](int lane) { return target.lane[lane]; }, target);
+    put_names(
+        first, batch.depth, rows, [&](int lane) { return target.lane[lane]; }, target);
     return kKernel;
   }
   template <Shader shader>
@@ -102,24 +106,31 @@ struct RecordingKernels {
   }
 };
 
-const rs::Kernel& FrameRecorder::triangles() {
+const rs::Kernel& FrameRecorder::triangles(bool placed) {
   using Kernels = RecordingKernels;
-  static const rs::Kernel kernel{Kernels::kKernel, kLanes, false, &Kernels::run, &Kernels::run_edges,
-                                 &Kernels::run_lines};
-  return kernel;
+  static constexpr rs::Kernel rows{Kernels::kKernel,    kLanes, false, &Kernels::run,
+                                   &Kernels::run_edges, nullptr};
+  static constexpr rs::Kernel lines{Kernels::kKernel,   kLanes, false, &Kernels::run, &Kernels::run_edges,
+                                    &Kernels::run_lines};
+  return placed ? lines : rows;
 }
 
-const rs::QuadKernel& FrameRecorder::quads() {
+const rs::QuadKernel& FrameRecorder::quads(bool placed) {
   using Kernels = RecordingKernels;
-  static const rs::QuadKernel kernel{Kernels::kKernel,
-                                     kLanes,
-                                     false,
-                                     &Kernels::run_quads<Shader::kQuads>,
-                                     &Kernels::run_quads<Shader::kQuadPatches>,
-                                     &Kernels::run_quads<Shader::kQuadSides>,
-                                     &Kernels::quad_lines<Shader::kQuads>,
-                                     &Kernels::quad_lines<Shader::kQuadPatches>};
-  return kernel;
+  static constexpr auto with = [](rs::QuadKernel::Lines* quads, rs::QuadKernel::Lines* patches) {
+    return rs::QuadKernel{Kernels::kKernel,
+                          kLanes,
+                          false,
+                          &Kernels::run_quads<Shader::kQuads>,
+                          &Kernels::run_quads<Shader::kQuadPatches>,
+                          &Kernels::run_quads<Shader::kQuadSides>,
+                          quads,
+                          patches};
+  };
+  static constexpr rs::QuadKernel rows = with(nullptr, nullptr);
+  static constexpr rs::QuadKernel lines =
+      with(&Kernels::quad_lines<Shader::kQuads>, &Kernels::quad_lines<Shader::kQuadPatches>);
+  return placed ? lines : rows;
 }
 
 FrameRecorder::FrameRecorder() : alone_(one_at_a_time) {

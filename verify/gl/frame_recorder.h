@@ -15,8 +15,8 @@
 namespace limitcheck::verify {
 
 /// While it lives, a frame of a StreamTessellator that has its kernels is planned but not evaluated: `batches` gets what is
-/// to be evaluated, and each vertex of the frame is a whole grid's, of which nothing is written, or has names in the place of
-/// a position and of a normal, or is what the processor itself has computed. One at a time, in the whole process.
+/// to be evaluated. The frame's vertices then have names where positions and normals would be, but for what the processor
+/// itself has computed, and for whole grids of patches if they are placed. One at a time, in the whole process.
 class FrameRecorder {
  public:
   static constexpr std::size_t kLanes = fast::row_stream::kMaxLanes;
@@ -24,7 +24,7 @@ class FrameRecorder {
   struct Batch {
     fast::gpu::Shader shader;
     bool local;   // some part has an origin of its own
-    bool placed;  // whole grids, each at its place
+    bool placed;  // whole grids, each at its place, where nothing is written
     fast::gpu::BatchUniforms uniforms;
     std::vector<float> input;                // kLanes side by side
     std::int64_t first = 0;                  // not placed: the number of its first vertex, lane after lane
@@ -32,8 +32,9 @@ class FrameRecorder {
   };
 
   /// The kernels of the recorder that lives. They refuse depths beyond fast::gpu::kMaxDepth with data::ArgumentError.
-  static const fast::row_stream::Kernel& triangles();
-  static const fast::row_stream::QuadKernel& quads();
+  ///   placed   whether whole grids of patches are
+  static const fast::row_stream::Kernel& triangles(bool placed = false);
+  static const fast::row_stream::QuadKernel& quads(bool placed = false);
 
   FrameRecorder();
   ~FrameRecorder();

@@ -9,17 +9,15 @@
 #include <span>
 #include <vector>
 
-#include "fast/gpu/shaders.h"
 #include "fast/stream/stream_tessellator.h"
 #include "verify/gl/frame_recorder.h"
+#include "verify/gl/recorded_points.h"
 
 namespace limitcheck::verify {
 
-class GlProgram;
-
 /// Frames as patches (PatchMesh): the processor culls, pairs faces, plans cracks and index patterns, and gathers rings; OpenGL's
-/// device evaluates, in the context of CurrentGl, which no caller may hold. Vertices have the bits of a StreamTessellator with
-/// engine_kernels_by_gl(), of 16 bytes where the device divides as IEEE 754 says; else packed normals may be a step off.
+/// device evaluates, in the context of CurrentGl, which no caller may hold. Vertices have the bits of frame_by_gl(), of 16 bytes
+/// where the device divides as IEEE 754 says; else packed normals may be a step off.
 class ResidentFrame {
  public:
   /// form   `incremental`: patches that are as they were are not evaluated again; `compact`: vertices of 16 bytes
@@ -43,7 +41,8 @@ class ResidentFrame {
   /// As Engine::move_points(): the next plan is for these.
   void move_points(std::span<const std::array<double, 3>> positions) { engine_.move_points(positions); }
 
-  /// Evaluates what the last plan wants, as often as it is called, and waits until the device is done.
+  /// Evaluates what the last plan has added, as often as it is called, and waits until the device is done. The next plan takes
+  /// for granted that it was called.
   void run() const;
 
   /// The calls that draw the frame and the index patterns; its vertices are not here but in vertices().
@@ -54,31 +53,19 @@ class ResidentFrame {
   std::vector<std::byte> read() const;
 
  private:
-  using Buffer = std::uint32_t;
-  struct Dispatch {
-    const GlProgram* program;
-    Buffer uniforms, given, writes, reads, reads_too, places;
-    std::size_t groups;
-  };
-
-  std::size_t vertex_bytes() const;
-  std::size_t vertex_count() const { return patches_.vertices().size(); }
-  Buffer buffer(const void* content, std::size_t bytes);
-  void forget();
+  std::size_t bytes() const;  // of the vertices
   void make_room();
   void give(FrameRecorder& recorder);
-  void add(std::span<const FrameRecorder::Batch> alike, Buffer scratch);
-  void add_run(Dispatch dispatch, fast::gpu::BatchUniforms uniforms, std::size_t first, std::size_t groups);
-  std::vector<fast::gpu::Copy> copies(const FrameRecorder& recorder, std::vector<float>& given) const;
+  std::vector<fast::gpu::Copy> copies(const FrameRecorder& recorder, const PlacedVertices& placed,
+                                      std::vector<float>& more) const;
 
   fast::row_stream::StreamTessellator engine_;
   fast::PatchMesh<float> patches_;
   bool compact_;
-  std::size_t most_bytes_ = 0;  // of a buffer
-  Buffer vertices_ = 0;
-  std::size_t room_ = 0;         // bytes of vertices_
-  std::vector<Buffer> buffers_;  // of the last plan
-  std::vector<Dispatch> dispatches_;
+  std::size_t most_bytes_;
+  RecordedPoints points_;
+  std::uint32_t vertices_ = 0;
+  std::size_t room_ = 0;  // bytes of vertices_
 };
 
 }  // namespace limitcheck::verify

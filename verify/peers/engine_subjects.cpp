@@ -10,7 +10,7 @@
 //                    frames=N walks through N frames of other depths and control points before the one that is
 //                    asked for. (Not with sticky pairs: what these deliver depends on the frames before, which
 //                    the audit's check of state finds.) `target` forces one compiled variant.
-//   row-stream-gl    the same with its kernels on a GPU (fast/gpu), by OpenGL.
+//   row-stream-gl    the same, its points computed on a GPU (fast/gpu), by OpenGL.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -18,6 +18,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "data/error.h"
@@ -29,7 +30,7 @@
 #include "fast/stream/stream_tessellator.h"
 #include "fast/window/tessellator.h"
 #include "verify/gl/context.h"
-#include "verify/gl/engine_kernels.h"
+#include "verify/gl/recorded_points.h"
 #include "verify/subject/adapter.h"
 #include "verify/subject/devices.h"
 #include "verify/subject/registry.h"
@@ -78,8 +79,8 @@ struct Settings {
     frames = options.integer("frames", 0, 0, 1000);
     if (frames > 0) form = Form::kPatches;
     if (by_gl) {
-      const EngineKernels kernels = engine_kernels_by_gl();
-      kernel = &kernels.triangles, quads = &kernels.quads;
+      { const CurrentGl there_is_one; }
+      kernel = &FrameRecorder::triangles(), quads = &FrameRecorder::quads();
       Devices::note("row-stream-gl", gl_device());
       return;
     }
@@ -109,8 +110,9 @@ void add(DeliveredArrays& all, const fast::SurfaceVertex<Real>& vertex, const fa
 
 // So many frames at other depths, where every fourth face has another one by 1, or is gone, at random; the
 // control points are at half their size in the first half of them.
+//   show   makes a frame of the engine's at these depths
 void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<const std::int32_t> depth,
-          int frames, fast::PatchMesh<float>& patches) {
+          int frames, const auto& show) {
   data::SplitMix64 random(static_cast<std::uint64_t>(frames));
   if (frames > 1) {
     std::vector<std::array<double, 3>> halved = mesh.positions;
@@ -126,7 +128,7 @@ void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<
       if (what < 4)
         d = what == 0 ? -1 : std::clamp<std::int32_t>(d + (what < 3 ? 1 : -1), -1, fast::kDeepest);
     }
-    engine.frame(other, patches);
+    show(other);
   }
 }
 
@@ -187,6 +189,14 @@ class EngineSubject {
     }
   }
 
+  template <class Real, class Output>
+  static void make(fast::Engine<Real>& engine, std::span<const std::int32_t> depth, Output& out) {
+    if constexpr (kKind == Kind::kStreamGl && std::is_same_v<Real, float>)
+      frame_by_gl(engine, out, depth);
+    else
+      engine.frame(depth, out);
+  }
+
   template <class Real>
   DeliveredArrays frame(fast::Engine<Real>& engine, std::span<const std::int32_t> depth) const {
     DeliveredArrays all;
@@ -195,14 +205,14 @@ class EngineSubject {
     };
     if (chosen_.form == Form::kIndexed) {
       fast::IndexedMesh<Real> mesh;
-      engine.frame(depth, mesh);
+      make(engine, depth, mesh);
       add_vertices(mesh);
       all.triangles = std::move(mesh.triangles);
       all.triangle_face = std::move(mesh.triangle_face);
       return all;
     }
     fast::DrawList<Real> list;
-    engine.frame(depth, list);
+    make(engine, depth, list);
     add_vertices(list);
     for (const fast::Draw& draw : list.draws)
       for (std::int32_t t = 0; t < draw.triangle_count(); ++t) {
@@ -215,8 +225,9 @@ class EngineSubject {
 
   // Vertices that no triangle has, such as those of patches that are not shown, are left out.
   DeliveredArrays patches(std::span<const std::int32_t> depth) {
-    walk(*float_, mesh_, depth, chosen_.frames, patches_);
-    float_->frame(depth, patches_);
+    const auto show = [&](std::span<const std::int32_t> depths) { make(*float_, depths, patches_); };
+    walk(*float_, mesh_, depth, chosen_.frames, show);
+    show(depth);
     constexpr std::uint32_t kUnused = UINT32_MAX;
     DeliveredArrays all;
     std::vector<std::uint32_t> number;

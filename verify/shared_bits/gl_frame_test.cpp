@@ -13,7 +13,7 @@
 #include "data/generators/named_mesh.h"
 #include "data/scheme.h"
 #include "fast/stream/stream_tessellator.h"
-#include "verify/gl/engine_kernels.h"
+#include "verify/gl/context.h"
 #include "verify/gl/resident_frame.h"
 
 namespace limitcheck::fast::row_stream {
@@ -25,7 +25,7 @@ class GlFrame : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      verify::engine_kernels_by_gl();
+      const verify::CurrentGl there_is_one;
     } catch (const std::runtime_error& error) {
       GTEST_SKIP() << error.what();
     }
@@ -39,13 +39,15 @@ class GlFrame : public testing::Test {
                        CrackOptions cracks = {}) {
     const data::ControlMesh mesh = data::named_mesh(name);
     const TessellatorOptions options{.cracks = cracks, .scheme = data::natural_scheme(mesh)};
-    const auto kernels = verify::engine_kernels_by_gl();
-    StreamTessellator engine(mesh, options, kernels.triangles, &kernels.quads);
-    PatchMesh<float> expected(form);
+    StreamTessellator engine(mesh, options, verify::FrameRecorder::triangles(),
+                             &verify::FrameRecorder::quads());
+    PatchOptions whole = form;
+    whole.compact = false;
+    PatchMesh<float> expected(whole);
     verify::ResidentFrame frame(mesh, options, form);
     Seen seen;
     for (const Depths& depths : frames) {
-      engine.frame(depths, expected);
+      verify::frame_by_gl(engine, expected, depths);
       frame.plan(depths);
       frame.run();
       const std::vector<std::byte> bytes = frame.read();
@@ -53,8 +55,10 @@ class GlFrame : public testing::Test {
       EXPECT_TRUE(std::equal(expected.indices().begin(), expected.indices().end(),
                              frame.patches().indices().begin()));
       EXPECT_EQ(frame.patches().draws().size(), expected.draws().size());
+      std::vector<CompactVertex> packed;
+      for (const Vertex& v : expected.vertices()) packed.push_back(compacted(v));
       const std::size_t size = form.compact ? sizeof(CompactVertex) : sizeof(Vertex);
-      const auto* right = form.compact ? reinterpret_cast<const std::byte*>(expected.compact_vertices().data())
+      const auto* right = form.compact ? reinterpret_cast<const std::byte*>(packed.data())
                                        : reinterpret_cast<const std::byte*>(expected.vertices().data());
       for (std::size_t d = 0; d < expected.draws().size(); ++d) {
         const PatchDraw &here = frame.patches().draws()[d], &there = expected.draws()[d];
@@ -91,8 +95,8 @@ class GlFrame : public testing::Test {
 TEST_F(GlFrame, HasTheVerticesOfTheProcessorsEngineInBothSizes) {
   Seen all;
   for (const bool compact : {false, true})
-    for (const char* name : {"bumpy:200", "stretched:4:bumpy:200", "dart:5", "fan:4", "quad-torus:9:9", "mixed:1:60",
-                             "stretched:4:pawn", "creased-cube"})
+    for (const char* name : {"bumpy:200", "stretched:4:bumpy:200", "dart:5", "fan:4", "quad-torus:9:9",
+                             "mixed:1:60", "stretched:4:pawn", "creased-cube"})
       for (const Repair repair : {Repair::kFan, Repair::kStitch}) {
         const Seen seen = compared(name, {unequal(name, 3)}, {.compact = compact}, {.repair = repair});
         EXPECT_EQ(seen.differ, 0) << name << (compact ? " of 16 bytes" : "") << " of " << seen.vertices;
@@ -112,14 +116,16 @@ TEST_F(GlFrame, HasThemWhereTheMiddleOfAFanIsTheProcessors) {
 // Many batches of each kind, those with origins of their own among them.
 TEST_F(GlFrame, HasThemWhereAllFacesAreWholeGrids) {
   for (const char* name : {"bumpy:200", "stretched:4:bumpy:200", "dual:bumpy:60"})
-    for (const int depth : {2, 4}) EXPECT_EQ(compared(name, {equal(name, depth)}, {}).differ, 0) << name << depth;
+    for (const int depth : {2, 4})
+      EXPECT_EQ(compared(name, {equal(name, depth)}, {}).differ, 0) << name << depth;
 }
 
 // Vertices stay where they are, also when the buffer grows.
 TEST_F(GlFrame, KeepsPatchesFromFrameToFrame) {
   for (const char* name : {"bumpy:200", "quad-torus:9:9"}) {
-    const Seen seen = compared(name, {equal(name, 1), unequal(name, 2, 40), unequal(name, 2, 40, 1), equal(name, 3)},
-                               {.compact = true, .incremental = true, .sticky = true});
+    const Seen seen =
+        compared(name, {equal(name, 1), unequal(name, 2, 40), unequal(name, 2, 40, 1), equal(name, 3)},
+                 {.compact = true, .incremental = true, .sticky = true});
     EXPECT_EQ(seen.differ, 0) << name << " of " << seen.vertices;
     EXPECT_GT(seen.kept, 0);
   }

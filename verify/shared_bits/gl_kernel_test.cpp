@@ -14,22 +14,19 @@
 #include "data/generators/named_mesh.h"
 #include "fast/plan/pairing.h"
 #include "fast/stream/row_stream.h"
-#include "verify/gl/engine_kernels.h"
+#include "verify/gl/context.h"
+#include "verify/shared_bits/test_support/gl_kernels.h"
 #include "verify/shared_bits/test_support/unfused.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
-
-const Kernel& gl() {
-  return verify::engine_kernels_by_gl().triangles;
-}
 
 // Each test in an OpenGL context, or skipped where there is none.
 class GlKernel : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      gl();
+      const verify::CurrentGl there_is_one;
     } catch (const std::runtime_error& error) {
       GTEST_SKIP() << error.what();
     }
@@ -48,7 +45,7 @@ TEST_F(GlKernel, HasTheBitsOfTheProcessorsKernelWithoutFusedMultiplyAdd) {
         if (local && depth == 0) continue;
         if (depth == 5 && name != "octahedron" && name != "wheel:7" && name != "fan:1") continue;
         if (depth >= 7 && name != "fan:1" && (name != "tetrahedron" || depth == 8)) continue;
-        Compared mesh(gl(), name, depth, local);
+        Compared mesh(gl_kernel(), name, depth, local);
         mesh.grids();
         mesh.edges();
         EXPECT_EQ(mesh.differ, 0) << name << " depth " << depth << (local ? " local" : "") << " of "
@@ -60,7 +57,7 @@ TEST_F(GlKernel, HasTheBitsOfTheProcessorsKernelWithoutFusedMultiplyAdd) {
 // Where an origin is a matter of each edge, lane by lane.
 TEST_F(GlKernel, HasThemWhereSomeEdgesHaveOriginsOfTheirOwn) {
   for (const int depth : {1, 2, 3}) {
-    Compared mesh(gl(), "stretched:4:bumpy:100", depth, std::nullopt);
+    Compared mesh(gl_kernel(), "stretched:4:bumpy:100", depth, std::nullopt);
     mesh.grids();
     mesh.edges();
     EXPECT_EQ(mesh.differ, 0) << "depth " << depth << " of " << mesh.compared;
@@ -77,7 +74,7 @@ TEST_F(GlKernel, DiffersFromTheFusedKernel) {
   Workspace workspace;
   std::vector<Vertex> here(81 * grids.size()), there(here.size());
   RowStream(mesh, adjacency).whole(grids, 3, workspace, here.data());
-  RowStream(mesh, adjacency, gl()).whole(grids, 3, workspace, there.data());
+  RowStream(mesh, adjacency, gl_kernel()).whole(grids, 3, workspace, there.data());
   std::size_t differ = 0;
   for (std::size_t v = 0; v < here.size(); ++v)
     differ += std::memcmp(&here[v], &there[v], sizeof(Vertex)) != 0 ? 1 : 0;
@@ -91,8 +88,8 @@ TEST_F(GlKernel, RefusesDepthsForWhichSharedMemoryIsTooSmall) {
                               gpu::Shader::kQuadSides, gpu::Shader::kQuadPatches})
       EXPECT_LE(4 * gpu::SharedMemory::of(shader, depth).size, 32768) << depth;
   EXPECT_GT(4 * gpu::SharedMemory::of(gpu::Shader::kTriangleGrids, gpu::kMaxDepth + 1).size, 32768);
-  std::vector<float> input(static_cast<std::size_t>(gl().lanes * input_size(9)));
-  EXPECT_THROW(gl().run(input.data(), 9, {}, nullptr, {}), data::ArgumentError);
+  std::vector<float> input(static_cast<std::size_t>(gl_kernel().lanes * input_size(9)));
+  EXPECT_THROW(gl_kernel().run(input.data(), 9, {}, nullptr, {}), data::ArgumentError);
 }
 
 }  // namespace

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "fast/stream/row_stream.h"
-#include "verify/gl/engine_kernels.h"
+#include "verify/gl/context.h"
+#include "verify/shared_bits/test_support/gl_kernels.h"
 #include "verify/shared_bits/test_support/unfused_quads.h"
 
 namespace limitcheck::fast::row_stream {
@@ -22,7 +23,7 @@ class GlQuadKernel : public testing::Test {
  protected:
   void SetUp() override {
     try {
-      verify::engine_kernels_by_gl();
+      const verify::CurrentGl there_is_one;
     } catch (const std::runtime_error& error) {
       GTEST_SKIP() << error.what();
     }
@@ -30,7 +31,7 @@ class GlQuadKernel : public testing::Test {
   static void expect_equal_bits(const std::string& name, int depth) {
     for (const bool local : {false, true}) {
       if (local && depth == 0) continue;
-      const ComparedQuads d(verify::engine_kernels_by_gl().quads, name, depth, local);
+      const ComparedQuads d(gl_quad_kernel(), name, depth, local);
       EXPECT_EQ(d.differ, 0) << name << " depth " << depth << (local ? " local" : "") << " of " << d.compared;
       EXPECT_GT(d.compared, 0) << name;
     }
@@ -46,7 +47,7 @@ TEST_F(GlQuadKernel, HasTheBitsOfTheProcessorsKernelWithoutFusedMultiplyAdd) {
 
 TEST_F(GlQuadKernel, HasThemWhereSomeSidesHaveOriginsOfTheirOwn) {
   for (const int depth : {1, 2, 3}) {
-    const ComparedQuads d(verify::engine_kernels_by_gl().quads, "stretched:4:pawn", depth, std::nullopt);
+    const ComparedQuads d(gl_quad_kernel(), "stretched:4:pawn", depth, std::nullopt);
     EXPECT_EQ(d.differ, 0) << "depth " << depth << " of " << d.compared;
     EXPECT_TRUE(d.local > 0 && d.local < d.items) << d.local << " of " << d.items;
   }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The engine's shaders as kernels, a batch at a time: what a FrameRecorder is given, evaluated at once.
+#pragma once
+
+#include <span>
+
+#include "verify/gl/recorded_points.h"
+
+namespace limitcheck::fast::row_stream {
+
+inline void evaluated(verify::FrameRecorder& recorder, float* out, std::size_t vertices) {
+  verify::put_points(verify::points_by_gl(recorder), {reinterpret_cast<Vertex*>(out), vertices});
+}
+
+inline const Kernel& gl_kernel() {
+  // Grids lie one after the other, and so do edges.
+  static const Kernel kernel{
+      "gl",
+      static_cast<int>(verify::FrameRecorder::kLanes),
+      false,
+      [](float* input, int depth, const BatchPlacement<float>& placement, float* work,
+         const Target<float>& to) {
+        verify::FrameRecorder recorder;
+        const char* name = verify::FrameRecorder::triangles().run(input, depth, placement, work, to);
+        const auto n = (std::size_t{1} << depth) + 1;
+        evaluated(recorder, to.base, verify::FrameRecorder::kLanes * n * n);
+        return name;
+      },
+      [](const float* input, int depth, const BatchPlacement<float>& placement, float* work, float* out,
+         std::ptrdiff_t lane_stride) {
+        verify::FrameRecorder recorder;
+        verify::FrameRecorder::triangles().run_edges(input, depth, placement, work, out, lane_stride);
+        evaluated(recorder, out, verify::FrameRecorder::kLanes * ((std::size_t{1} << depth) + 1));
+      },
+      nullptr};
+  return kernel;
+}
+
+template <QuadKernel::Run* QuadKernel::*kRun>
+const char* run_by_gl(const QuadBatch<float>& batch, const Placement<float>& placement, float* work,
+                      const QuadTarget<float>& to) {
+  verify::FrameRecorder recorder;
+  const QuadKernel& kernel = verify::FrameRecorder::quads();
+  const char* name = (kernel.*kRun)(batch, placement, work, to);
+  const auto n = (std::size_t{1} << batch.depth) + 1, rows = kRun == &QuadKernel::sides ? 1 : n;
+  const std::vector<float> points = verify::points_by_gl(recorder);
+  for (std::size_t k = 0; k < verify::FrameRecorder::kLanes; ++k)
+    verify::put_points(points, {reinterpret_cast<Vertex*>(to.lane[k]), n * rows});
+  return name;
+}
+
+inline const QuadKernel& gl_quad_kernel() {
+  static const QuadKernel kernel{"gl",
+                                 static_cast<int>(verify::FrameRecorder::kLanes),
+                                 false,
+                                 &run_by_gl<&QuadKernel::quads>,
+                                 &run_by_gl<&QuadKernel::patches>,
+                                 &run_by_gl<&QuadKernel::sides>,
+                                 nullptr,
+                                 nullptr};
+  return kernel;
+}
+
+}  // namespace limitcheck::fast::row_stream

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 #include <utility>
 
 #include "data/error.h"
@@ -25,6 +26,11 @@ fast::Vec3<float> name_of(std::int64_t number) {
   const auto bits = static_cast<std::uint64_t>(number);
   return {std::bit_cast<float>(kName), std::bit_cast<float>(static_cast<std::uint32_t>(bits)),
           std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32))};
+}
+
+FrameRecorder& recorder() {
+  if (current == nullptr) throw std::logic_error("kernels of FrameRecorder, and no recorder");
+  return *current;
 }
 
 int checked(int depth) {
@@ -66,14 +72,14 @@ struct RecordingKernels {
   static void add_placed(FrameRecorder::Batch batch, const float* input, int numbers, float* const* lane) {
     batch.placed = true;
     std::copy_n(lane, kLanes, batch.place.begin());
-    current->add(std::move(batch), input, numbers, 0);
+    recorder().add(std::move(batch), input, numbers, 0);
   }
 
   static const char* run(float* input, int depth, const Placement& placement, float* /*work*/,
                          const rs::Target<float>& target) {
     const int rows = (1 << depth) + 1;
     const std::int64_t first =
-        current->add(of(Shader::kTriangleGrids, depth, placement), input, rs::input_size(depth), rows);
+        recorder().add(of(Shader::kTriangleGrids, depth, placement), input, rs::input_size(depth), rows);
     put_names(
         first, depth, rows, [&](int lane) { return target.base + lane * target.lane_stride; }, target);
     return kKernel;
@@ -81,7 +87,7 @@ struct RecordingKernels {
   static void run_edges(const float* input, int depth, const Placement& placement, float* /*work*/,
                         float* out, std::ptrdiff_t lane_stride) {
     const std::int64_t first =
-        current->add(of(Shader::kTriangleEdges, depth, placement), input, rs::edge_input_size(depth), 1);
+        recorder().add(of(Shader::kTriangleEdges, depth, placement), input, rs::edge_input_size(depth), 1);
     put_names(
         first, depth, 1, [&](int lane) { return out + lane * lane_stride; }, rs::Target<float>{});
   }
@@ -94,7 +100,7 @@ struct RecordingKernels {
                                float* /*work*/, const rs::QuadTarget<float>& target) {
     const int rows = shader == Shader::kQuadSides ? 1 : (1 << batch.depth) + 1;
     const std::int64_t first =
-        current->add(of(shader, batch, placement), batch.input, rs::quad_input_size(batch.depth), rows);
+        recorder().add(of(shader, batch, placement), batch.input, rs::quad_input_size(batch.depth), rows);
     put_names(
         first, batch.depth, rows, [&](int lane) { return target.lane[lane]; }, target);
     return kKernel;

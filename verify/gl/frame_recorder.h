@@ -31,7 +31,8 @@ class FrameRecorder {
     std::array<const float*, kLanes> place;  // placed: of each lane; the last ones may be the same
   };
 
-  /// The kernels of the recorder that lives. They refuse depths beyond fast::gpu::kMaxDepth with data::ArgumentError.
+  /// The kernels of the recorder that lives, without which they throw std::logic_error. Depths beyond fast::gpu::kMaxDepth are
+  /// a data::ArgumentError.
   ///   placed   whether whole grids of patches are
   static const fast::row_stream::Kernel& triangles(bool placed = false);
   static const fast::row_stream::QuadKernel& quads(bool placed = false);

@@ -193,6 +193,10 @@ void Journal::read() {
   if (fstat(fileno(out_.get()), &is) != 0 || !S_ISREG(is.st_mode)) refuse(" is no file");
   const std::string text = data::io::whole_content(file_);
   const std::string first = sealed(to_json(plan_));
+  if (text.size() < first.size() && first.starts_with(text)) {  // a kill came before it was whole
+    if (ftruncate(fileno(out_.get()), 0) != 0) refuse(": it cannot be written");
+    return write(first);
+  }
   if (!text.starts_with(first))
     refuse(" is of another plan: of other subjects, meshes, options or another shard");
   // What a kill has torn is the end of the file, behind the last line that is whole; whole lines are true.

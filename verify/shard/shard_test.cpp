@@ -125,6 +125,20 @@ TEST_F(JournalTest, KnowsWhatWasDoneBeforeTheProgramEnded) {
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
+TEST_F(JournalTest, BeginsAnewWhereTheProgramEndedBeforeItsFirstLineWasWhole) {
+  const std::size_t whole = [&] {
+    Journal journal(plan({}), file_, false);
+    return text().size();
+  }();
+  for (const std::size_t size : {std::size_t{0}, std::size_t{10}, whole - 1}) {
+    std::filesystem::resize_file(file_, size);
+    { Journal(plan({}), file_, true).keep(3, 1); }
+    const Journal again(plan({}), file_, true);
+    EXPECT_EQ(again.results().size(), 1U) << size;
+    ASSERT_NE(again.recall(3), nullptr) << size;
+  }
+}
+
 TEST_F(JournalTest, TouchesNoFileThatIsNotItsOwn) {
   std::ofstream(file_) << "somebody's notes\n";
   EXPECT_THROW(Journal(plan({}), file_, false), data::ArgumentError);

@@ -162,7 +162,7 @@ TEST_F(Process, HasNoDescriptorsButItsOwn) {
   const int open_here = open("/dev/null", O_RDONLY);  // without O_CLOEXEC
   EXPECT_EQ(said("python3 -c 'import os; print(len(os.listdir(\"/proc/self/fd\")))'"),
             "4");  // one is the list's
-  EXPECT_EQ(said("grep ^SigBlk /proc/$$/status"), "SigBlk:\t0000000000000000");
+  EXPECT_EQ(said("exec grep ^SigBlk /proc/self/status"), "SigBlk:\t0000000000000000");
   close(open_here);
 }
 

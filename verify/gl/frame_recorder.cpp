@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/gl/frame_recorder.h"
 
-#include <algorithm>
 #include <bit>
 #include <stdexcept>
 #include <utility>
@@ -20,7 +19,6 @@ std::mutex one_at_a_time;
 FrameRecorder* current = nullptr;
 
 constexpr auto kName = 0x7fe1d9a5U;  // a NaN that nobody computes
-constexpr int kLanes = static_cast<int>(FrameRecorder::kLanes);
 
 fast::Vec3<float> name_of(std::int64_t number) {
   const auto bits = static_cast<std::uint64_t>(number);
@@ -39,10 +37,11 @@ int checked(int depth) {
 }
 
 // Names for rows of vertices from number `first` on: those of a lane to at(lane), and target.row after each row.
+template <int lanes>
 void put_names(std::int64_t first, int depth, int rows, const auto& at, const auto& target) {
   const int n = (1 << depth) + 1;
   for (int j = 0; j < rows; ++j) {
-    for (int lane = 0; lane < kLanes; ++lane) {
+    for (int lane = 0; lane < lanes; ++lane) {
       auto* to = reinterpret_cast<rs::Vertex*>(at(lane) + target.row_offset(j));
       for (int i = 0; i < n; ++i) {
         const std::int64_t number = 2 * (first + (std::int64_t{lane} * rows + j) * n + i);
@@ -55,23 +54,25 @@ void put_names(std::int64_t first, int depth, int rows, const auto& at, const au
 
 }  // namespace
 
+// Batches that are not whole have lanes that repeat others, so there are few where nothing is gained by many.
+template <bool placed>
 struct RecordingKernels {
+  static constexpr int kLanes = placed ? rs::kMaxLanes : 4;
   using Placement = rs::BatchPlacement<float>;
   static constexpr const char* kKernel = "recorded";
 
   static FrameRecorder::Batch of(Shader shader, int depth, const Placement& placement) {
-    return {shader, placement.local, false, BatchUniforms::of(checked(depth), placement, kLanes), {}, 0, {}};
+    return {shader, placement.local, BatchUniforms::of(checked(depth), placement, kLanes)};
   }
   static FrameRecorder::Batch of(Shader shader, const rs::QuadBatch<float>& batch,
                                  const fast::Placement<float>& placement) {
     checked(batch.depth);
     const bool local = shader != Shader::kQuadPatches && batch.local;
     const int sides = shader == Shader::kQuadSides ? 1 : 4;
-    return {shader, local, false, BatchUniforms::of(batch, placement, kLanes, sides), {}, 0, {}};
+    return {shader, local, BatchUniforms::of(batch, placement, kLanes, sides)};
   }
   static void add_placed(FrameRecorder::Batch batch, const float* input, int numbers, float* const* lane) {
-    batch.placed = true;
-    std::copy_n(lane, kLanes, batch.place.begin());
+    batch.place.assign(lane, lane + kLanes);
     recorder().add(std::move(batch), input, numbers, 0);
   }
 
@@ -80,7 +81,7 @@ struct RecordingKernels {
     const int rows = (1 << depth) + 1;
     const std::int64_t first =
         recorder().add(of(Shader::kTriangleGrids, depth, placement), input, rs::input_size(depth), rows);
-    put_names(
+    put_names<kLanes>(
         first, depth, rows, [&](int lane) { return target.base + lane * target.lane_stride; }, target);
     return kKernel;
   }
@@ -88,7 +89,7 @@ struct RecordingKernels {
                         float* out, std::ptrdiff_t lane_stride) {
     const std::int64_t first =
         recorder().add(of(Shader::kTriangleEdges, depth, placement), input, rs::edge_input_size(depth), 1);
-    put_names(
+    put_names<kLanes>(
         first, depth, 1, [&](int lane) { return out + lane * lane_stride; }, rs::Target<float>{});
   }
   static void run_lines(float* input, int depth, const Placement& placement, float* /*work*/,
@@ -101,7 +102,7 @@ struct RecordingKernels {
     const int rows = shader == Shader::kQuadSides ? 1 : (1 << batch.depth) + 1;
     const std::int64_t first =
         recorder().add(of(shader, batch, placement), batch.input, rs::quad_input_size(batch.depth), rows);
-    put_names(
+    put_names<kLanes>(
         first, batch.depth, rows, [&](int lane) { return target.lane[lane]; }, target);
     return kKernel;
   }
@@ -112,31 +113,35 @@ struct RecordingKernels {
   }
 };
 
-const rs::Kernel& FrameRecorder::triangles(bool placed) {
-  using Kernels = RecordingKernels;
-  static constexpr rs::Kernel rows{Kernels::kKernel,    kLanes, false, &Kernels::run,
-                                   &Kernels::run_edges, nullptr};
-  static constexpr rs::Kernel lines{Kernels::kKernel,   kLanes, false, &Kernels::run, &Kernels::run_edges,
-                                    &Kernels::run_lines};
-  return placed ? lines : rows;
-}
+namespace {
 
+template <bool placed>
+constexpr rs::Kernel kTriangles = [] {
+  using Kernels = RecordingKernels<placed>;
+  return rs::Kernel{Kernels::kKernel, Kernels::kLanes,     false,
+                    &Kernels::run,    &Kernels::run_edges, placed ? &Kernels::run_lines : nullptr};
+}();
+
+template <bool placed>
+constexpr rs::QuadKernel kQuads = [] {
+  using Kernels = RecordingKernels<placed>;
+  return rs::QuadKernel{Kernels::kKernel,
+                        Kernels::kLanes,
+                        false,
+                        &Kernels::template run_quads<Shader::kQuads>,
+                        &Kernels::template run_quads<Shader::kQuadPatches>,
+                        &Kernels::template run_quads<Shader::kQuadSides>,
+                        placed ? &Kernels::template quad_lines<Shader::kQuads> : nullptr,
+                        placed ? &Kernels::template quad_lines<Shader::kQuadPatches> : nullptr};
+}();
+
+}  // namespace
+
+const rs::Kernel& FrameRecorder::triangles(bool placed) {
+  return placed ? kTriangles<true> : kTriangles<false>;
+}
 const rs::QuadKernel& FrameRecorder::quads(bool placed) {
-  using Kernels = RecordingKernels;
-  static constexpr auto with = [](rs::QuadKernel::Lines* quads, rs::QuadKernel::Lines* patches) {
-    return rs::QuadKernel{Kernels::kKernel,
-                          kLanes,
-                          false,
-                          &Kernels::run_quads<Shader::kQuads>,
-                          &Kernels::run_quads<Shader::kQuadPatches>,
-                          &Kernels::run_quads<Shader::kQuadSides>,
-                          quads,
-                          patches};
-  };
-  static constexpr rs::QuadKernel rows = with(nullptr, nullptr);
-  static constexpr rs::QuadKernel lines =
-      with(&Kernels::quad_lines<Shader::kQuads>, &Kernels::quad_lines<Shader::kQuadPatches>);
-  return placed ? lines : rows;
+  return placed ? kQuads<true> : kQuads<false>;
 }
 
 FrameRecorder::FrameRecorder() : alone_(one_at_a_time) {
@@ -152,11 +157,12 @@ std::optional<std::int64_t> FrameRecorder::named(const fast::Vec3<float>& v) {
 }
 
 std::int64_t FrameRecorder::add(Batch batch, const float* input, int numbers, int rows) {
-  batch.input.assign(input, input + static_cast<std::ptrdiff_t>(numbers) * kLanes);
+  const auto lanes = static_cast<std::ptrdiff_t>(batch.lanes());
+  batch.input.assign(input, input + numbers * lanes);
   const std::int64_t side = (std::int64_t{1} << batch.uniforms.depth) + 1;
   const std::lock_guard lock(adding_);
   batch.first = vertices;
-  vertices += kLanes * rows * side;
+  vertices += lanes * rows * side;
   batches.push_back(std::move(batch));
   return batches.back().first;
 }

@@ -2,7 +2,6 @@
 // Kernels that compute nothing: they keep what they are asked for, and put names where points would go.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -19,21 +18,22 @@ namespace limitcheck::verify {
 /// itself has computed, and for whole grids of patches if they are placed. One at a time, in the whole process.
 class FrameRecorder {
  public:
-  static constexpr std::size_t kLanes = fast::row_stream::kMaxLanes;
-
   struct Batch {
     fast::gpu::Shader shader;
-    bool local;   // some part has an origin of its own
-    bool placed;  // whole grids, each at its place, where nothing is written
+    bool local;  // some part has an origin of its own
     fast::gpu::BatchUniforms uniforms;
-    std::vector<float> input;                // kLanes side by side
-    std::int64_t first = 0;                  // not placed: the number of its first vertex, lane after lane
-    std::array<const float*, kLanes> place;  // placed: of each lane; the last ones may be the same
+    std::vector<const float*> place =
+        {};  // of each lane's grid, where nothing is written; the last may be the same; or none
+    std::vector<float> input = {};  // lanes() side by side
+    std::int64_t first = 0;         // of no place: the number of its first vertex, lane after lane
+
+    std::size_t lanes() const { return static_cast<std::size_t>(uniforms.given_stride); }
+    bool placed() const { return !place.empty(); }
   };
 
   /// The kernels of the recorder that lives, without which they throw std::logic_error. Depths beyond fast::gpu::kMaxDepth are
   /// a data::ArgumentError.
-  ///   placed   whether whole grids of patches are
+  ///   placed   whether whole grids of patches are; for those of a batch that are wanted then, many go together, else few
   static const fast::row_stream::Kernel& triangles(bool placed = false);
   static const fast::row_stream::QuadKernel& quads(bool placed = false);
 
@@ -49,6 +49,7 @@ class FrameRecorder {
   std::int64_t vertices = 0;  // of those that are not placed
 
  private:
+  template <bool placed>
   friend struct RecordingKernels;
   std::int64_t add(Batch batch, const float* input, int numbers, int rows);
 

@@ -23,7 +23,6 @@ using fast::gpu::EdgeEnds;
 using fast::gpu::Output;
 using fast::gpu::Shader;
 
-constexpr std::size_t kLanes = FrameRecorder::kLanes;
 constexpr std::size_t kSides = 4, kEdges = 5;  // of a quad, of a grid
 constexpr std::size_t kMostGroups = 65535;     // in a row that every driver does
 
@@ -44,7 +43,7 @@ const GlProgram& program(Shader shader, int depth, bool local, Output output) {
 
 // Batches that have one of these go to the same programs.
 auto kind(const Batch& b) {
-  return std::tuple(b.shader, b.uniforms.depth, b.local, b.placed);
+  return std::tuple(b.shader, b.uniforms.depth, b.local, b.placed());
 }
 bool goes_before(const Batch& a, const Batch& b) {
   return kind(a) != kind(b) ? kind(a) < kind(b) : a.uniforms < b.uniforms;
@@ -100,9 +99,10 @@ void RecordedPoints::give(std::span<Batch> batches, std::int64_t named, const Pl
   std::sort(batches.begin(), batches.end(), goes_before);
   for (std::size_t first = 0, end; first < batches.size(); first = end) {
     const Batch& front = batches[first];
-    const std::size_t made = 24 * static_cast<std::size_t>(rs::side(front.uniforms.depth)) * kEdges * kLanes;
+    const std::size_t made =
+        24 * static_cast<std::size_t>(rs::side(front.uniforms.depth)) * kEdges * front.lanes();
     const std::size_t most =
-        std::max<std::size_t>(1, std::min({kMostGroups / (kEdges * kLanes), most_bytes / made,
+        std::max<std::size_t>(1, std::min({kMostGroups / (kEdges * front.lanes()), most_bytes / made,
                                            most_bytes / (4 * front.input.size())}));
     for (end = first; end < batches.size() && end - first < most && kind(batches[end]) == kind(front);) ++end;
     add(batches.subspan(first, end - first));
@@ -119,23 +119,23 @@ void RecordedPoints::give(std::span<Batch> batches, std::int64_t named, const Pl
 void RecordedPoints::add(std::span<const Batch> alike) {
   const Batch& front = alike.front();
   const int depth = front.uniforms.depth;
-  const auto side = static_cast<std::size_t>(rs::side(depth));
+  const std::size_t lanes = front.lanes(), side = static_cast<std::size_t>(rs::side(depth));
   const bool alone = front.shader == Shader::kTriangleEdges || front.shader == Shader::kQuadSides;
   const std::size_t made = alone ? side : side * side;  // vertices, by each lane
   std::vector<float> input;
   std::vector<std::int32_t> places;
   for (const Batch& b : alike) {
     input.insert(input.end(), b.input.begin(), b.input.end());
-    for (std::size_t k = 0; k < kLanes; ++k)
+    for (std::size_t k = 0; k < lanes; ++k)
       places.push_back(static_cast<std::int32_t>(
-          b.placed ? placed_.number(b.place[k]) : b.first - first_ + static_cast<std::int64_t>(k * made)));
+          b.placed() ? placed_.number(b.place[k]) : b.first - first_ + static_cast<std::int64_t>(k * made)));
   }
-  const Output output = !front.placed || !placed_.compact ? Output::kPlaced : Output::kPlacedCompact;
+  const Output output = !front.placed() || !placed_.compact ? Output::kPlaced : Output::kPlacedCompact;
   const Buffer given = buffer(input.data(), bytes_of(input));
   Dispatch main{&program(front.shader, depth, front.local, output),
                 0,
                 given,
-                front.placed ? placed_.buffer : scratch_,
+                front.placed() ? placed_.buffer : scratch_,
                 0,
                 0,
                 buffer(places.data(), bytes_of(places)),
@@ -145,8 +145,8 @@ void RecordedPoints::add(std::span<const Batch> alike) {
   const bool triangles = front.shader == Shader::kTriangleEdges || front.shader == Shader::kTriangleGrids;
   for (std::size_t k = 0; triangles && k < alike.size(); ++k) {
     const auto at = static_cast<std::int32_t>(k * front.input.size());
-    for (const EdgeEnds& e :
-         alone ? fast::gpu::edges_by_themselves(depth, kLanes) : fast::gpu::edges_of_grids(depth, kLanes))
+    for (const EdgeEnds& e : alone ? fast::gpu::edges_by_themselves(depth, front.uniforms.given_stride)
+                                   : fast::gpu::edges_of_grids(depth, front.uniforms.given_stride))
       ends.push_back({at + e.p, e.p_first, at + e.q, e.q_first, at + e.own});
   }
   const Buffer end_buffer = triangles && (alone || front.local) ? buffer(ends.data(), bytes_of(ends)) : 0;
@@ -156,7 +156,7 @@ void RecordedPoints::add(std::span<const Batch> alike) {
   Dispatch lines{};
   if (alone) main.reads = end_buffer;
   if (each > 0) {
-    main.reads = buffer(nullptr, 24 * side * each * kLanes * alike.size());
+    main.reads = buffer(nullptr, 24 * side * each * lanes * alike.size());
     lines = {&program(triangles ? Shader::kTriangleEdges : Shader::kQuadSides, depth, true, Output::kInOrder),
              0,
              given,
@@ -172,7 +172,7 @@ void RecordedPoints::add(std::span<const Batch> alike) {
   for (std::size_t k = 0, end = 0; k < alike.size(); k = end) {
     while (end < alike.size() && alike[end].uniforms == alike[k].uniforms) ++end;
     const auto add_step = [&](const Dispatch& step, std::size_t groups) {
-      add_run(step, alike[k].uniforms, k * kLanes * groups, (end - k) * kLanes * groups);
+      add_run(step, alike[k].uniforms, k * lanes * groups, (end - k) * lanes * groups);
     };
     if (each > 0) add_step(lines, each);
     add_step(main, 1);

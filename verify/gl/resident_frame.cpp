@@ -76,9 +76,9 @@ std::vector<fast::gpu::Copy> ResidentFrame::copies(const FrameRecorder& recorder
                                                    std::vector<float>& more) const {
   std::vector<fast::VertexRange> grids;
   for (const FrameRecorder::Batch& b : recorder.batches)
-    for (std::size_t k = 0; b.placed && k < FrameRecorder::kLanes; ++k) {
+    for (const float* place : b.place) {
       const std::int64_t side = rs::side(b.uniforms.depth);
-      grids.push_back({placed.number(b.place[k]), side * side});
+      grids.push_back({placed.number(place), side * side});
     }
   std::sort(grids.begin(), grids.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<fast::gpu::Copy> all;

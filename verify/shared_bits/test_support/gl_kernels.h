@@ -12,25 +12,28 @@ inline void evaluated(verify::FrameRecorder& recorder, float* out, std::size_t v
   verify::put_points(verify::points_by_gl(recorder), {reinterpret_cast<Vertex*>(out), vertices});
 }
 
+/// Grids are to lie one after the other, and so are edges.
 inline const Kernel& gl_kernel() {
-  // Grids lie one after the other, and so do edges.
+  static constexpr auto lanes = [] {
+    return static_cast<std::size_t>(verify::FrameRecorder::triangles().lanes);
+  };
   static const Kernel kernel{
       "gl",
-      static_cast<int>(verify::FrameRecorder::kLanes),
+      verify::FrameRecorder::triangles().lanes,
       false,
       [](float* input, int depth, const BatchPlacement<float>& placement, float* work,
          const Target<float>& to) {
         verify::FrameRecorder recorder;
         const char* name = verify::FrameRecorder::triangles().run(input, depth, placement, work, to);
         const auto n = (std::size_t{1} << depth) + 1;
-        evaluated(recorder, to.base, verify::FrameRecorder::kLanes * n * n);
+        evaluated(recorder, to.base, lanes() * n * n);
         return name;
       },
       [](const float* input, int depth, const BatchPlacement<float>& placement, float* work, float* out,
          std::ptrdiff_t lane_stride) {
         verify::FrameRecorder recorder;
         verify::FrameRecorder::triangles().run_edges(input, depth, placement, work, out, lane_stride);
-        evaluated(recorder, out, verify::FrameRecorder::kLanes * ((std::size_t{1} << depth) + 1));
+        evaluated(recorder, out, lanes() * ((std::size_t{1} << depth) + 1));
       },
       nullptr};
   return kernel;
@@ -44,14 +47,14 @@ const char* run_by_gl(const QuadBatch<float>& batch, const Placement<float>& pla
   const char* name = (kernel.*kRun)(batch, placement, work, to);
   const auto n = (std::size_t{1} << batch.depth) + 1, rows = kRun == &QuadKernel::sides ? 1 : n;
   const std::vector<float> points = verify::points_by_gl(recorder);
-  for (std::size_t k = 0; k < verify::FrameRecorder::kLanes; ++k)
+  for (int k = 0; k < kernel.lanes; ++k)
     verify::put_points(points, {reinterpret_cast<Vertex*>(to.lane[k]), n * rows});
   return name;
 }
 
 inline const QuadKernel& gl_quad_kernel() {
   static const QuadKernel kernel{"gl",
-                                 static_cast<int>(verify::FrameRecorder::kLanes),
+                                 verify::FrameRecorder::quads().lanes,
                                  false,
                                  &run_by_gl<&QuadKernel::quads>,
                                  &run_by_gl<&QuadKernel::patches>,

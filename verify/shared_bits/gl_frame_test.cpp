@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,24 +12,16 @@
 #include "data/generators/named_mesh.h"
 #include "data/scheme.h"
 #include "fast/stream/stream_tessellator.h"
-#include "verify/gl/context.h"
 #include "verify/gl/resident_frame.h"
+#include "verify/shared_bits/test_support/gl_kernels.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
 
 using Depths = std::vector<std::int32_t>;
 
-class GlFrame : public testing::Test {
+class GlFrame : public GlTest {
  protected:
-  void SetUp() override {
-    try {
-      const verify::CurrentGl there_is_one;
-    } catch (const std::runtime_error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-
   // All frames of a mesh, by both. Counts the vertices of draws, and the draws that are whole grids, are none, and are new.
   struct Seen {
     std::int64_t vertices = 0, differ = 0, grids = 0, repaired = 0, kept = 0;

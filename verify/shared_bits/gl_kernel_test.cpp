@@ -6,31 +6,19 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "data/error.h"
 #include "data/generators/named_mesh.h"
 #include "fast/stream/stream_tessellator.h"
-#include "verify/gl/context.h"
 #include "verify/shared_bits/test_support/gl_kernels.h"
 #include "verify/shared_bits/test_support/unfused.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
 
-// Each test in an OpenGL context, or skipped where there is none.
-class GlKernel : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      const verify::CurrentGl there_is_one;
-    } catch (const std::runtime_error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-};
+using GlKernel = GlTest;
 
 // Closed, of high and low valence, with boundaries, irregular, and a face without a partner.
 const std::vector<std::string> kMeshes{"tetrahedron", "octahedron", "torus",    "wheel:7",

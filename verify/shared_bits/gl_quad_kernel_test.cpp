@@ -7,27 +7,18 @@
 #include <cstring>
 #include <numeric>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fast/stream/row_stream.h"
-#include "verify/gl/context.h"
 #include "verify/shared_bits/test_support/gl_kernels.h"
 #include "verify/shared_bits/test_support/unfused_quads.h"
 
 namespace limitcheck::fast::row_stream {
 namespace {
 
-class GlQuadKernel : public testing::Test {
+class GlQuadKernel : public GlTest {
  protected:
-  void SetUp() override {
-    try {
-      const verify::CurrentGl there_is_one;
-    } catch (const std::runtime_error& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
   static void expect_equal_bits(const std::string& name, int depth) {
     for (const bool local : {false, true}) {
       if (local && depth == 0) continue;

@@ -2,11 +2,28 @@
 // The engine's shaders as kernels, a batch at a time: what a FrameRecorder is given, evaluated at once.
 #pragma once
 
-#include <span>
+#include <gtest/gtest.h>
 
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "verify/gl/context.h"
 #include "verify/gl/recorded_points.h"
 
 namespace limitcheck::fast::row_stream {
+
+/// Each test in an OpenGL context, or skipped where there is none.
+class GlTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      const verify::CurrentGl there_is_one;
+    } catch (const std::runtime_error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+};
 
 inline void evaluated(verify::FrameRecorder& recorder, float* out, std::size_t vertices) {
   verify::put_points(verify::points_by_gl(recorder), {reinterpret_cast<Vertex*>(out), vertices});

@@ -20,11 +20,19 @@
 namespace limitcheck::verify {
 namespace {
 
+using fast::gpu::Output;
 using fast::gpu::Shader;
 
 constexpr std::array kShaders{Shader::kTriangleGrids, Shader::kTriangleEdges, Shader::kQuads,
                               Shader::kQuadSides, Shader::kQuadPatches};
 constexpr std::array kNames{"grids", "edges", "quads", "sides", "patches"};
+
+// In which ways the points of a shader go out.
+std::vector<Output> outputs(Shader shader) {
+  if (shader == Shader::kTriangleEdges || shader == Shader::kQuadSides)
+    return {Output::kInOrder, Output::kPlaced};
+  return {Output::kInOrder, Output::kPlaced, Output::kPlacedCompact};
+}
 
 const VulkanDevice& navi21() {
   static const VulkanDevice device = [] {
@@ -42,7 +50,7 @@ struct CompiledShader {
 };
 CompiledShader compiled(const std::string& glsl) {
   const VulkanDevice::Code code = test::spirv(glsl);
-  std::vector<VulkanDevice::Buffer> buffers{{0, {}, true}, {1, {}}, {2, {}}, {3, {}}, {4, {}}};
+  std::vector<VulkanDevice::Buffer> buffers{{0, {}, true}, {1, {}}, {2, {}}, {3, {}}, {4, {}}, {5, {}}};
   const auto made = navi21().compiled({code, "main", 1}, buffers);
   const vk::raii::Device& device = navi21().device();
   const vk::PipelineExecutableInfoKHR first(*made.pipeline);
@@ -103,16 +111,26 @@ TEST(ShadersForNavi21, FuseNoProductThatRounds) {
         EXPECT_EQ(with.all, with.exact) << static_cast<int>(shader) << " depth " << depth << local;
         // So this compiler fuses where it may, and the test sees it.
         EXPECT_GT(fused(compiled(without_precise(text)).assembly).all.size(), 20) << depth << local;
+        for (const Output output : outputs(shader)) {
+          const Fused out = fused(compiled(fast::gpu::source(shader, depth, local, output)).assembly);
+          EXPECT_EQ(out.all, out.exact)
+              << static_cast<int>(shader) << static_cast<int>(output) << depth << local;
+        }
       }
 }
 
 TEST(ShadersForNavi21, NeedAtMostFortyRegistersAndLittleSharedMemory) {
   for (const auto shader : kShaders)
-    for (const bool local : {false, true}) {
-      const auto figures = compiled(fast::gpu::source(shader, 5, local)).figures;
+    for (const auto& [local, output] : [&] {
+           std::vector<std::pair<bool, Output>> all;
+           for (const bool local : {false, true})
+             for (const Output output : outputs(shader)) all.emplace_back(local, output);
+           return all;
+         }()) {
+      const auto figures = compiled(fast::gpu::source(shader, 5, local, output)).figures;
       const bool quads = shader != Shader::kTriangleGrids && shader != Shader::kTriangleEdges;
-      const std::string name =
-          fmt::format("{}_{}", kNames.at(static_cast<std::size_t>(shader)), local ? "local" : "common");
+      const std::string name = fmt::format("{}_{}_{}", kNames.at(static_cast<std::size_t>(shader)),
+                                           local ? "local" : "common", static_cast<int>(output));
       if (!quads) {
         EXPECT_LE(figures.at("VGPRs"), 40) << name;
       }

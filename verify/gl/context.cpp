@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <unistd.h>
 // EGL names the extension only where the platform's headers are new enough
 #ifndef EGL_PLATFORM_SURFACELESS_MESA
 #define EGL_PLATFORM_SURFACELESS_MESA 0x31DD
@@ -46,6 +47,7 @@ EGLDisplay card() {
 // With an array of vertices and a framebuffer, both empty: without them nothing is drawn, and nothing captured.
 struct Shared {
   GlContext context{4, 5};
+  pid_t process = getpid();
   std::string device = context.renderer();
   Shared() {
     GLuint array = 0, frame = 0;
@@ -124,10 +126,13 @@ const std::string& lack_of_gl() {
 }
 
 CurrentGl::CurrentGl() : lock_(one_at_a_time) {
-  if (shared == nullptr)
+  if (shared == nullptr) {
     shared = new Shared;
-  else
-    shared->context.make_current();
+    return;
+  }
+  if (shared->process != getpid())  // whose driver has threads that are not here
+    throw std::runtime_error("no OpenGL: it belongs to the process that this one was forked from");
+  shared->context.make_current();
 }
 
 CurrentGl::~CurrentGl() {

@@ -35,7 +35,7 @@ const std::string& lack_of_gl();
 /// asked for, and stays until the process ends.
 class CurrentGl {
  public:
-  /// Throws std::runtime_error if there is none to be had.
+  /// Throws std::runtime_error if there is none to be had: in a process forked from one that has it, too.
   CurrentGl();
   ~CurrentGl();
   CurrentGl(const CurrentGl&) = delete;

@@ -65,6 +65,13 @@ std::size_t most_bytes_of_a_buffer() {
 }
 
 RecordedPoints::~RecordedPoints() {
+  try {
+    clear();
+  } catch (const std::runtime_error&) {  // a process that has been forked: nothing of it is there
+  }
+}
+
+void RecordedPoints::clear() {
   const CurrentGl gl;
   forget();
 }
@@ -211,6 +218,8 @@ void RecordedPoints::read(std::span<float> numbers) const {
 }
 
 std::vector<float> points_by_gl(FrameRecorder& recorder) {
+  for (const Batch& b : recorder.batches)
+    if (b.placed()) throw std::logic_error("points by OpenGL: the grids of an engine's frame are placed");
   std::vector<float> points(6 * static_cast<std::size_t>(recorder.vertices));
   const auto most = static_cast<std::int64_t>(most_bytes_of_a_buffer() / 24);
   const std::span<Batch> all(recorder.batches);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "data/error.h"
 #include "fast/frame/engine.h"
 #include "fast/gpu/shaders.h"
 #include "verify/gl/frame_recorder.h"
@@ -39,6 +40,7 @@ class RecordedPoints {
   RecordedPoints(const RecordedPoints&) = delete;
   RecordedPoints& operator=(const RecordedPoints&) = delete;
 
+  void clear();
   /// In place of those before; sorts them. Those of no place make `named` vertices, the first of which is the first one's.
   ///   more     numbers that are no kernel's, three for each position or normal, behind those of these vertices
   ///   copies   of vertices and of `more`, in threes of numbers, to the placed ones
@@ -73,14 +75,17 @@ class RecordedPoints {
 std::vector<float> points_by_gl(FrameRecorder& recorder);
 void put_points(const std::vector<float>& points, std::span<fast::row_stream::Vertex> vertices);
 
-/// A frame whose points are computed by OpenGL's device: Engine::frame() of an engine with the kernels of FrameRecorder, to
-/// depth fast::gpu::kMaxDepth; vertices are not compact. In the context of CurrentGl, which no caller may hold.
-/// Throws std::runtime_error, too: there is no OpenGL, or it refuses something.
+/// A frame whose points are computed by OpenGL's device: Engine::frame() of an engine with the kernels of FrameRecorder that
+/// place nothing, to depth fast::gpu::kMaxDepth, one more on faces that are cut into quads. In the context of CurrentGl,
+/// which no caller may hold.
+/// Throws std::runtime_error, too: there is no OpenGL, or it refuses something; data::ArgumentError: vertices are compact.
 ///
 /// Bits: those of the scalar kernels on a number without fused multiply-add, on any GPU whose sums and products round
 /// as IEEE 754 says; inside quads with the way that is taken to depth 4 at all (kFusedFrom).
 template <class Output, class... Wanted>
 fast::FrameStats frame_by_gl(fast::Engine<float>& engine, Output& out, const Wanted&... wanted) {
+  if constexpr (requires { out.options().compact; })
+    if (out.options().compact) throw data::ArgumentError("points by OpenGL: not of 16 bytes in this memory");
   FrameRecorder recorder;
   fast::FrameStats stats = engine.frame(wanted..., out);
   const auto begin = std::chrono::steady_clock::now();

@@ -35,8 +35,16 @@ ResidentFrame::ResidentFrame(const data::ControlMesh& mesh, const fast::Tessella
       most_bytes_(most_bytes_of_a_buffer()) {}
 
 ResidentFrame::~ResidentFrame() {
-  const CurrentGl gl;
-  glDeleteBuffers(1, &vertices_);
+  try {
+    const CurrentGl gl;
+    glDeleteBuffers(1, &vertices_);
+  } catch (const std::runtime_error&) {  // a process that has been forked: nothing of it is there
+  }
+}
+
+void ResidentFrame::forget() {
+  patches_.clear();
+  points_.clear();
 }
 
 std::size_t ResidentFrame::bytes() const {
@@ -62,12 +70,22 @@ void ResidentFrame::make_room() {
   check_gl("a buffer of vertices");
 }
 
-void ResidentFrame::give(FrameRecorder& recorder) {
+// False: there is no room, and the frame is to be planned anew, without what is kept from earlier ones and between.
+bool ResidentFrame::give(FrameRecorder& recorder, bool anew) {
+  if (bytes() > most_bytes_ && anew)
+    throw std::runtime_error(
+        fmt::format("a frame on a GPU: {} vertices are {} bytes, a buffer of {} holds {}",
+                    patches_.vertices().size(), bytes(), gl_device(), most_bytes_));
+  if (bytes() > most_bytes_) {
+    patches_.clear();
+    return false;
+  }
   make_room();
   const PlacedVertices placed{vertices_, std::as_const(patches_).vertices().data(), compact_};
   std::vector<float> more;
   std::vector<fast::gpu::Copy> copied = copies(recorder, placed, more);
   points_.give(recorder.batches, recorder.vertices, placed, more, std::move(copied));
+  return true;
 }
 
 // The vertices that the last frame wrote but for whole grids; what has no name is added to `more`.

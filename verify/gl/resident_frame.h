@@ -29,14 +29,19 @@ class ResidentFrame {
   ResidentFrame(const ResidentFrame&) = delete;
   ResidentFrame& operator=(const ResidentFrame&) = delete;
 
-  /// Plans a frame, at depths to fast::gpu::kMaxDepth or by a strategy and a camera as Engine::frame() does, and gives the
-  /// device what it needs. Throws std::runtime_error if the vertices are more than a buffer of the device holds.
+  /// Plans a frame, at depths to fast::gpu::kMaxDepth (one more on faces that are cut into quads) or by a strategy and a camera
+  /// as Engine::frame() does, and gives the device what it needs. Throws std::runtime_error if the vertices of this frame are
+  /// more than a buffer of the device holds; after any exception there is no frame until the next plan.
   template <class... Wanted>
-  fast::FrameStats plan(const Wanted&... wanted) {
-    FrameRecorder recorder;
-    const fast::FrameStats stats = engine_.frame(wanted..., patches_);
-    give(recorder);
-    return stats;
+  fast::FrameStats plan(const Wanted&... wanted) try {
+    for (bool anew = false;; anew = true) {
+      FrameRecorder recorder;
+      const fast::FrameStats stats = engine_.frame(wanted..., patches_);
+      if (give(recorder, anew)) return stats;
+    }
+  } catch (...) {
+    forget();
+    throw;
   }
   /// As Engine::move_points(): the next plan is for these.
   void move_points(std::span<const std::array<double, 3>> positions) { engine_.move_points(positions); }
@@ -55,7 +60,8 @@ class ResidentFrame {
  private:
   std::size_t bytes() const;  // of the vertices
   void make_room();
-  void give(FrameRecorder& recorder);
+  bool give(FrameRecorder& recorder, bool anew);
+  void forget();
   std::vector<fast::gpu::Copy> copies(const FrameRecorder& recorder, const PlacedVertices& placed,
                                       std::vector<float>& more) const;
 

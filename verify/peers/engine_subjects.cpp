@@ -110,9 +110,9 @@ void add(DeliveredArrays& all, const fast::SurfaceVertex<Real>& vertex, const fa
 
 // So many frames at other depths, where every fourth face has another one by 1, or is gone, at random; the
 // control points are at half their size in the first half of them.
-//   show   makes a frame of the engine's at these depths
+//   show   makes a frame of the engine's at these depths, to `deepest`
 void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<const std::int32_t> depth,
-          int frames, const auto& show) {
+          int frames, int deepest, const auto& show) {
   data::SplitMix64 random(static_cast<std::uint64_t>(frames));
   if (frames > 1) {
     std::vector<std::array<double, 3>> halved = mesh.positions;
@@ -125,8 +125,7 @@ void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<
     std::vector<std::int32_t> other(depth.begin(), depth.end());
     for (std::int32_t& d : other) {
       const std::uint64_t what = random.next() % 16;
-      if (what < 4)
-        d = what == 0 ? -1 : std::clamp<std::int32_t>(d + (what < 3 ? 1 : -1), -1, fast::kDeepest);
+      if (what < 4) d = what == 0 ? -1 : std::clamp<std::int32_t>(d + (what < 3 ? 1 : -1), -1, deepest);
     }
     show(other);
   }
@@ -135,6 +134,7 @@ void walk(fast::Engine<float>& engine, const data::ControlMesh& mesh, std::span<
 template <Kind kKind>
 class EngineSubject {
   static constexpr bool kWindow = kKind == Kind::kWindow;
+  static constexpr int kMaxDepth = kKind == Kind::kStreamGl ? fast::gpu::kMaxDepth : fast::kDeepest;
 
  public:
   static lc_capabilities capabilities(Options& options, lc_scheme scheme) {
@@ -144,9 +144,7 @@ class EngineSubject {
                            LC_WEIGHTS_LOOP,
                            LC_BOUNDARY_SPLINE,
                            LC_POINTS_LIMIT,
-                           kWindow                  ? fast::kDeepest
-                           : kKind == Kind::kStream ? rs::kMaxDepth
-                                                    : fast::gpu::kMaxDepth,
+                           kMaxDepth,
                            1,
                            1,
                            exact ? 1 : 0};
@@ -226,7 +224,7 @@ class EngineSubject {
   // Vertices that no triangle has, such as those of patches that are not shown, are left out.
   DeliveredArrays patches(std::span<const std::int32_t> depth) {
     const auto show = [&](std::span<const std::int32_t> depths) { make(*float_, depths, patches_); };
-    walk(*float_, mesh_, depth, chosen_.frames, show);
+    walk(*float_, mesh_, depth, chosen_.frames, kMaxDepth, show);
     show(depth);
     constexpr std::uint32_t kUnused = UINT32_MAX;
     DeliveredArrays all;

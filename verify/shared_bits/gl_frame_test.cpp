@@ -3,8 +3,11 @@
 // kernels, bit by bit: unequal depths, faces that are culled, repaired or left to the processor, one frame after another.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -143,15 +146,57 @@ TEST_F(GlFrame, FollowsPointsThatMove) {
 TEST_F(GlFrame, SaysWhatItCannotDo) {
   const data::ControlMesh mesh = data::named_mesh("tetrahedron");
   EXPECT_THROW(verify::ResidentFrame(mesh, {.provenance = true}), data::ArgumentError);
-  verify::ResidentFrame frame(mesh, {});
-  EXPECT_THROW(frame.plan(Depths(4, 9)), data::ArgumentError);
-  EXPECT_THROW(frame.plan(Depths(3, 1)), data::ArgumentError);
+  verify::ResidentFrame frame(mesh, {}, {.incremental = true});
+  for (const Depths& depths : {Depths(4, 9), Depths(3, 1)}) {
+    frame.plan(Depths(4, 2));
+    EXPECT_THROW(frame.plan(depths), data::ArgumentError);
+    EXPECT_TRUE(frame.read().empty());
+  }
   frame.plan(Depths(4, -1));
   frame.run();
   EXPECT_TRUE(frame.read().empty());
-  frame.plan(Depths(4, 1));
-  frame.run();
-  EXPECT_FALSE(frame.read().empty());
+  StreamTessellator engine(mesh, {}, verify::FrameRecorder::triangles());
+  PatchMesh<float> compact({.compact = true});
+  EXPECT_THROW(verify::frame_by_gl(engine, compact, Depths(4, 1)), data::ArgumentError);
+  DrawList<float> list;
+  EXPECT_THROW(engine.frame(Depths(4, 1), list), std::logic_error) << "and no recorder";
+}
+
+// What is kept of earlier frames goes where it would be too much: a buffer of Mesa's holds 128 MiB.
+TEST_F(GlFrame, HasRoomForEveryFrameThatFits) {
+  const data::ControlMesh mesh = data::named_mesh("bumpy:400");
+  verify::ResidentFrame frame(mesh, {}, {.incremental = true});
+  const std::size_t most = verify::most_bytes_of_a_buffer();
+  if (most > std::size_t{1} << 28) GTEST_SKIP() << "a buffer of " << most << " bytes";
+  const auto deep = [&](std::size_t first, std::size_t last) {
+    Depths depths(mesh.faces.size(), -1);
+    std::fill(depths.begin() + static_cast<std::ptrdiff_t>(first),
+              depths.begin() + static_cast<std::ptrdiff_t>(last), 8);
+    return depths;
+  };
+  frame.plan(deep(0, 90));
+  const std::size_t bytes = frame.read().size();
+  EXPECT_GT(3 * bytes, most);
+  frame.plan(deep(90, 190));
+  EXPECT_LE(frame.read().size(), most);
+  EXPECT_THROW(frame.plan(deep(0, 200)), std::runtime_error);
+  frame.plan(deep(0, 90));
+  EXPECT_EQ(frame.read().size(), bytes);
+}
+
+TEST_F(GlFrame, HasNoContextInAProcessThatWasForked) {
+  const data::ControlMesh mesh = data::named_mesh("tetrahedron");
+  EXPECT_EXIT(
+      {
+        int code = 1;
+        try {
+          verify::ResidentFrame(mesh, {}).plan(Depths(4, 1));
+        } catch (const std::runtime_error&) {
+          code = 0;
+        }
+        std::exit(code);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

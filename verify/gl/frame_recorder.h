@@ -22,10 +22,11 @@ class FrameRecorder {
     fast::gpu::Shader shader;
     bool local;  // some part has an origin of its own
     fast::gpu::BatchUniforms uniforms;
-    std::vector<const float*> place =
-        {};  // of each lane's grid, where nothing is written; the last may be the same; or none
+    // Of each lane's grid, where nothing is written; the last ones may be the same. Or there are none, and its vertices have
+    // numbers from `first` on, lane after lane.
+    std::vector<const float*> place = {};
     std::vector<float> input = {};  // lanes() side by side
-    std::int64_t first = 0;         // of no place: the number of its first vertex, lane after lane
+    std::int64_t first = 0;
 
     std::size_t lanes() const { return static_cast<std::size_t>(uniforms.given_stride); }
     bool placed() const { return !place.empty(); }
@@ -33,7 +34,7 @@ class FrameRecorder {
 
   /// The kernels of the recorder that lives, without which they throw std::logic_error. Depths beyond fast::gpu::kMaxDepth are
   /// a data::ArgumentError.
-  ///   placed   whether whole grids of patches are; for those of a batch that are wanted then, many go together, else few
+  ///   placed   whether whole grids of patches are: then a batch has as many lanes as there can be, else four
   static const fast::row_stream::Kernel& triangles(bool placed = false);
   static const fast::row_stream::QuadKernel& quads(bool placed = false);
 

@@ -93,8 +93,8 @@ RecordedPoints::Buffer RecordedPoints::buffer(const void* content, std::size_t b
 
 void RecordedPoints::give(std::span<Batch> batches, std::int64_t named, const PlacedVertices& placed,
                           std::span<const float> more, std::vector<fast::gpu::Copy> copies) {
-  const std::size_t own = 24 * static_cast<std::size_t>(named), most_bytes = most_bytes_of_a_buffer();
-  if (own + more.size_bytes() > most_bytes)
+  const std::size_t own = 24 * static_cast<std::size_t>(named);
+  if (own + more.size_bytes() > most_bytes_)
     throw std::runtime_error("a frame on a GPU: its repaired faces have more vertices than a buffer holds");
   const CurrentGl gl;
   forget();
@@ -109,8 +109,8 @@ void RecordedPoints::give(std::span<Batch> batches, std::int64_t named, const Pl
     const std::size_t made =
         24 * static_cast<std::size_t>(rs::side(front.uniforms.depth)) * kEdges * front.lanes();
     const std::size_t most =
-        std::max<std::size_t>(1, std::min({kMostGroups / (kEdges * front.lanes()), most_bytes / made,
-                                           most_bytes / (4 * front.input.size())}));
+        std::max<std::size_t>(1, std::min({kMostGroups / (kEdges * front.lanes()), most_bytes_ / made,
+                                           most_bytes_ / (4 * front.input.size())}));
     for (end = first; end < batches.size() && end - first < most && kind(batches[end]) == kind(front);) ++end;
     add(batches.subspan(first, end - first));
   }
@@ -217,14 +217,14 @@ void RecordedPoints::read(std::span<float> numbers) const {
   check_gl("row streaming");
 }
 
-std::vector<float> points_by_gl(FrameRecorder& recorder) {
+std::vector<float> points_by_gl(FrameRecorder& recorder, std::size_t most_bytes) {
   for (const Batch& b : recorder.batches)
     if (b.placed()) throw std::logic_error("points by OpenGL: the grids of an engine's frame are placed");
   std::vector<float> points(6 * static_cast<std::size_t>(recorder.vertices));
-  const auto most = static_cast<std::int64_t>(most_bytes_of_a_buffer() / 24);
+  const auto most = static_cast<std::int64_t>(most_bytes / 24);
   const std::span<Batch> all(recorder.batches);
   const auto begins = [&](std::size_t k) { return k < all.size() ? all[k].first : recorder.vertices; };
-  RecordedPoints part;
+  RecordedPoints part(most_bytes);
   for (std::size_t first = 0, end; first < all.size(); first = end) {
     const std::int64_t from = begins(first);
     for (end = first + 1; end < all.size() && begins(end + 1) - from <= most;) ++end;

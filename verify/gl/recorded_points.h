@@ -35,7 +35,8 @@ struct PlacedVertices {
 /// std::runtime_error.
 class RecordedPoints {
  public:
-  RecordedPoints() = default;
+  /// most_bytes: no buffer is to be larger.
+  explicit RecordedPoints(std::size_t most_bytes) : most_bytes_(most_bytes) {}
   ~RecordedPoints();
   RecordedPoints(const RecordedPoints&) = delete;
   RecordedPoints& operator=(const RecordedPoints&) = delete;
@@ -64,6 +65,7 @@ class RecordedPoints {
   void add(std::span<const FrameRecorder::Batch> alike);
   void add_run(Dispatch dispatch, fast::gpu::BatchUniforms uniforms, std::size_t first, std::size_t groups);
 
+  std::size_t most_bytes_;
   PlacedVertices placed_;
   std::int64_t first_ = 0;
   Buffer scratch_ = 0;
@@ -71,8 +73,9 @@ class RecordedPoints {
   std::vector<Dispatch> dispatches_;
 };
 
-/// All vertices of a recorder whose grids are not placed, six numbers each; and these in the place of their names.
-std::vector<float> points_by_gl(FrameRecorder& recorder);
+/// All vertices of a recorder whose grids are not placed, six numbers each, as many at a time as buffers of so many bytes hold;
+/// and these in the place of their names.
+std::vector<float> points_by_gl(FrameRecorder& recorder, std::size_t most_bytes = most_bytes_of_a_buffer());
 void put_points(const std::vector<float>& points, std::span<fast::row_stream::Vertex> vertices);
 
 /// A frame whose points are computed by OpenGL's device: Engine::frame() of an engine with the kernels of FrameRecorder that

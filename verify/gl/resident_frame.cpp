@@ -32,7 +32,8 @@ ResidentFrame::ResidentFrame(const data::ControlMesh& mesh, const fast::Tessella
     : engine_(mesh, without_provenance(options), FrameRecorder::triangles(true), &FrameRecorder::quads(true)),
       patches_(of_whole_vertices(form)),
       compact_(form.compact),
-      most_bytes_(most_bytes_of_a_buffer()) {}
+      most_bytes_(most_bytes_of_a_buffer()),
+      points_(most_bytes_) {}
 
 ResidentFrame::~ResidentFrame() {
   try {
@@ -54,10 +55,6 @@ std::size_t ResidentFrame::bytes() const {
 // For the frame that has been planned; what was there stays.
 void ResidentFrame::make_room() {
   const std::size_t size = bytes();
-  if (size > most_bytes_)
-    throw std::runtime_error(
-        fmt::format("a frame on a GPU: {} vertices are {} bytes, a buffer of {} holds {}",
-                    patches_.vertices().size(), size, gl_device(), most_bytes_));
   if (size <= room_) return;
   const CurrentGl gl;
   GLuint larger = 0;
@@ -72,11 +69,11 @@ void ResidentFrame::make_room() {
 
 // False: there is no room, and the frame is to be planned anew, without what is kept from earlier ones and between.
 bool ResidentFrame::give(FrameRecorder& recorder, bool anew) {
-  if (bytes() > most_bytes_ && anew)
-    throw std::runtime_error(
-        fmt::format("a frame on a GPU: {} vertices are {} bytes, a buffer of {} holds {}",
-                    patches_.vertices().size(), bytes(), gl_device(), most_bytes_));
   if (bytes() > most_bytes_) {
+    if (anew)
+      throw std::runtime_error(
+          fmt::format("a frame on a GPU: {} vertices are {} bytes, a buffer of {} holds {}",
+                      patches_.vertices().size(), bytes(), gl_device(), most_bytes_));
     patches_.clear();
     return false;
   }

@@ -106,11 +106,9 @@ TEST(ShadersForNavi21, FuseNoProductThatRounds) {
   for (const auto shader : kShaders)
     for (const bool local : {false, true})
       for (const int depth : {3, 5}) {
-        const std::string text = fast::gpu::source(shader, depth, local);
-        const Fused with = fused(compiled(text).assembly);
-        EXPECT_EQ(with.all, with.exact) << static_cast<int>(shader) << " depth " << depth << local;
         // So this compiler fuses where it may, and the test sees it.
-        EXPECT_GT(fused(compiled(without_precise(text)).assembly).all.size(), 20) << depth << local;
+        const std::string free = without_precise(fast::gpu::source(shader, depth, local));
+        EXPECT_GT(fused(compiled(free).assembly).all.size(), 20) << depth << local;
         for (const Output output : outputs(shader)) {
           const Fused out = fused(compiled(fast::gpu::source(shader, depth, local, output)).assembly);
           EXPECT_EQ(out.all, out.exact)
@@ -121,12 +119,9 @@ TEST(ShadersForNavi21, FuseNoProductThatRounds) {
 
 TEST(ShadersForNavi21, NeedAtMostFortyRegistersAndLittleSharedMemory) {
   for (const auto shader : kShaders)
-    for (const auto& [local, output] : [&] {
-           std::vector<std::pair<bool, Output>> all;
-           for (const bool local : {false, true})
-             for (const Output output : outputs(shader)) all.emplace_back(local, output);
-           return all;
-         }()) {
+    for (int way = 0; way < 2 * static_cast<int>(outputs(shader).size()); ++way) {
+      const bool local = way % 2 != 0;
+      const Output output = outputs(shader)[static_cast<std::size_t>(way / 2)];
       const auto figures = compiled(fast::gpu::source(shader, 5, local, output)).figures;
       const bool quads = shader != Shader::kTriangleGrids && shader != Shader::kTriangleEdges;
       const std::string name = fmt::format("{}_{}_{}", kNames.at(static_cast<std::size_t>(shader)),

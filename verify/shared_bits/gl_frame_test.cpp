@@ -114,6 +114,26 @@ TEST_F(GlFrame, HasThemWhereAllFacesAreWholeGrids) {
       EXPECT_EQ(compared(name, {equal(name, depth)}, {}).differ, 0) << name << depth;
 }
 
+// In parts, as where a frame is more than a buffer holds: several of each kind, in runs of batches that are alike.
+TEST_F(GlFrame, HasTheSamePointsFromSmallBuffers) {
+  for (const char* name : {"stretched:4:bumpy:200", "mixed:1:60"}) {
+    const data::ControlMesh mesh = data::named_mesh(name);
+    StreamTessellator engine(mesh, {.scheme = data::natural_scheme(mesh)}, verify::FrameRecorder::triangles(),
+                             &verify::FrameRecorder::quads());
+    verify::FrameRecorder recorder;
+    DrawList<float> list;
+    engine.frame(unequal(name, 3), list);
+    const std::vector<verify::FrameRecorder::Batch> batches = recorder.batches;  // in their own order
+    const std::vector<float> whole = verify::points_by_gl(recorder);
+    for (const std::size_t bytes : {std::size_t{8192}, std::size_t{20000}}) {
+      recorder.batches = batches;
+      const std::vector<float> parts = verify::points_by_gl(recorder, bytes);
+      ASSERT_GT(4 * parts.size(), 2 * bytes) << name;
+      EXPECT_EQ(std::memcmp(parts.data(), whole.data(), 4 * whole.size()), 0) << name << bytes;
+    }
+  }
+}
+
 // Vertices stay where they are, also when the buffer grows.
 TEST_F(GlFrame, KeepsPatchesFromFrameToFrame) {
   for (const char* name : {"bumpy:200", "quad-torus:9:9"}) {

@@ -77,11 +77,10 @@ struct RowView {
   int j;
   RowBuffer rows;
   std::size_t grids = 0;                 // of the batch, one in each lane
-  std::size_t first = 0;                 // lane k has number first + k of the caller's list
-  const std::uint32_t* index = nullptr;  // or, if this is not null, number index[k]
+  const std::uint32_t* index = nullptr;  // lane k has number index[k] of the caller's list
 
   std::size_t size() const { return grids; }
-  std::size_t number(std::size_t lane) const { return index != nullptr ? index[lane] : first + lane; }
+  std::size_t number(std::size_t lane) const { return index[lane]; }
   /// The side(depth) vertices of the grid in a lane,
   const Vertex* vertices(std::size_t lane) const { return rows.row(lane, j); }
   /// and those of the row before, j > 0, if two are kept.
@@ -125,9 +124,9 @@ class BasicRowStream {
   Vertex limit(std::int32_t v) const { return vertex_from(rings_.head(v) + Rings::Block::kLimit); }
 
   /// Calls visit(context, RowView) for each row of each batch of items, which all have this depth; the rows of a batch
-  /// come one after the other. A batch of grids is a part of the list; one of quads takes those that can go together
-  /// from anywhere in it. From C, rows and columns are counted from that corner; the points are the same, those inside
-  /// regular quads and quads that something semi-sharp touches but for rounding.
+  /// come one after the other. A batch takes items that can go together from anywhere in the list. From C, rows and
+  /// columns are counted from that corner; the points are the same, those inside regular quads and quads that something
+  /// semi-sharp touches but for rounding.
   void rows(std::span<const Item> items, int depth, Workspace& workspace,
             void (*visit)(void*, const RowView&), void* context, Order order = Order::kFromA,
             Kept kept = Kept::kOneRow) const;
@@ -187,8 +186,8 @@ class RowStream : public BasicRowStream<LoopStreams> {
 
   /// The depth from which some part of a grid has an origin of its own, see Part.
   int local_from(const Grid& grid) const { return row_stream::local_from(rings_.local(), grid); }
-  /// The grids in an order in which those of the same local_from() follow each other, which makes the best batches. Any
-  /// order is right.
+  /// The grids in an order in which pairs with regular corners come first, and then those of the same local_from() follow
+  /// each other, which makes the best batches. Any order is right.
   std::vector<Grid> sorted(std::span<const Grid> grids) const;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
@@ -50,6 +51,15 @@ struct GridEdges {
   bool from_a;
   std::array<std::int32_t, kInside> of;
 };
+
+/// Whether a grid is a pair of triangles with regular corners, see kPolynomialFrom.
+template <class N>
+bool is_regular(const BasicLoopRings<N>& rings, const Grid& grid) {
+  if (grid.singleton()) return false;
+  const std::int32_t ac = 3 * grid.face0 + grid.edge0, ca = 3 * grid.face1 + grid.edge1;
+  return rings.corner(ac).regular != 0 && rings.corner(Adjacency::next(ac)).regular != 0 &&
+         rings.corner(Adjacency::prev(ac)).regular != 0 && rings.corner(Adjacency::prev(ca)).regular != 0;
+}
 
 /// The depth from which some part of a grid has an origin of its own.
 inline int local_from(const LocalOrigins& local, const Grid& grid) {
@@ -120,7 +130,27 @@ bool put_parts(const LocalOrigins& local, int depth, int lanes, int count, T* ou
   return some;
 }
 
+// Which of `count` edges are between regular vertices: ends(edge) are corners.
+template <class N, class Ends>
+void put_regular(const BasicLoopRings<N>& rings, int count, int lanes, const Ends& ends,
+                 typename N::Scalar* out, BatchPlacement<typename N::Scalar>& placement) {
+  for (int edge = 0; edge < count; ++edge) {
+    const auto [p, q] = ends(edge);
+    unsigned some = 0, all = 1;
+    for (int lane = 0; lane < lanes; ++lane) {
+      const unsigned regular =
+          rings.corner(p->half_edge[lane]).regular & rings.corner(q->half_edge[lane]).regular;
+      some |= regular, all &= regular;
+      out[edge * lanes + lane] = typename N::Scalar(static_cast<int>(regular));
+    }
+    placement.some_regular |= some << edge, placement.all_regular |= all << edge;
+  }
+}
+
 }  // namespace detail
+
+/// Whether edges between regular vertices are to be polynomials, from kPolynomialFrom on.
+enum class Edges : std::uint8_t { kAllStreamed, kRegularByPolynomials };
 
 /// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
 /// grids; the lanes that remain repeat the last grid. A singleton without neighbour gets ghosts for its dummy
@@ -128,7 +158,7 @@ bool put_parts(const LocalOrigins& local, int depth, int lanes, int count, T* ou
 template <class N>
 BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::span<const Grid> grids,
                                           int depth, int lanes, typename N::Scalar* input,
-                                          Order order = Order::kFromA) {
+                                          Order order = Order::kFromA, Edges edges = Edges::kAllStreamed) {
   detail::Corners corners[4] = {{{}, -2}, {{}, -1}, {{}, -1}, {{}, -1}};
   bool ghost[kMaxLanes];
   const auto grid_of = [&](int lane) -> const Grid& {
@@ -162,9 +192,26 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
     const std::int32_t h = GridEdges(rings.adjacency(), grid, order).of[part];
     return h >= 0 && depth >= local.of_edge<3>(h);
   };
-  return {rings.placement(), detail::put_parts(
-                                 local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
-                                 [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
+  BatchPlacement<typename N::Scalar> placement{
+      rings.placement(),
+      detail::put_parts(
+          local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
+          [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
+  const auto ends = [&](int edge) {
+    const auto at = [&](int corner) { return &corners[corner ^ static_cast<int>(order)]; };
+    return std::pair(at(kEdgeEnds[edge].p), at(kEdgeEnds[edge].q));
+  };
+  if (edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom)
+    detail::put_regular(rings, kInside, lanes, ends, input + regular_offset(depth) * lanes, placement);
+  return placement;
+}
+
+/// The same for a TrianglePatch, whatever the depth: of grids that are regular.
+template <class N>
+BatchPlacement<typename N::Scalar> gather_regular(const BasicLoopRings<N>& rings, std::span<const Grid> grids,
+                                                  int lanes, typename N::Scalar* input,
+                                                  Order order = Order::kFromA) {
+  return gather(rings, grids, kPatchWindow, lanes, input, order);
 }
 
 /// The same for control edges, each from the origin to the target of a half-edge: edge_input_size(depth) *
@@ -172,7 +219,8 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
 template <class N>
 BatchPlacement<typename N::Scalar> gather_edges(const BasicLoopRings<N>& rings,
                                                 std::span<const std::int32_t> half_edges, int depth,
-                                                int lanes, typename N::Scalar* input) {
+                                                int lanes, typename N::Scalar* input,
+                                                Edges edges = Edges::kAllStreamed) {
   detail::Corners p{{}, -1}, q{{}, 0};  // Q's ring: from the left neighbour, which comes before P
   const auto half_edge = [&](int lane) {
     return half_edges[std::min(static_cast<std::size_t>(lane), half_edges.size() - 1)];
@@ -183,9 +231,13 @@ BatchPlacement<typename N::Scalar> gather_edges(const BasicLoopRings<N>& rings,
   detail::put_corners(rings, p, width, depth, lanes, input);
   detail::put_corners(rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
   const auto from = [&](int lane) { return rings.local().template of_edge<3>(half_edge(lane)); };
-  return {rings.placement(),
-          detail::put_parts(rings.local(), depth, lanes, 1, input + edge_part_offset(depth) * lanes, from,
-                            [&](int lane, int) { return depth >= from(lane); })};
+  typename N::Scalar* const flags = input + edge_part_offset(depth) * lanes;
+  BatchPlacement<typename N::Scalar> placement{
+      rings.placement(), detail::put_parts(rings.local(), depth, lanes, 1, flags, from,
+                                           [&](int lane, int) { return depth >= from(lane); })};
+  if (edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom)
+    detail::put_regular(rings, 1, lanes, [&](int) { return std::pair(&p, &q); }, flags + lanes, placement);
+  return placement;
 }
 
 namespace detail {

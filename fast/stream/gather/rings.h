@@ -153,9 +153,10 @@ class BasicLoopRings {
   static constexpr bool reaches(int depth) { return depth + 3 <= kReach; }
 
   /// How a grid finds one of its corners, by the half-edge that leaves there, in points: its head, and the
-  /// entry of its ring to which the half-edge leads.
+  /// entry of its ring to which the half-edge leads; and whether it is regular, see kPolynomialFrom.
   struct Corner {
-    std::int32_t head, entry;
+    std::int32_t head;
+    std::uint32_t entry : 31, regular : 1;
   };
   const Corner& corner(std::int32_t h) const { return corners_[h]; }
 

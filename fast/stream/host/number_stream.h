@@ -50,29 +50,39 @@ class NumberStream {
 
   /// All vertices of grids of one depth, 0..10: those of grids[p] from out[6 p side^2], row by row, side =
   /// 2^depth + 1. Throws data::ArgumentError for another depth.
-  void whole(std::span<const Grid> grids, int depth, T* out) const {
+  void whole(std::span<const Grid> grids, int depth, T* out, Edges edges = Edges::kAllStreamed) const {
     check(depth);
     const std::ptrdiff_t side = (1 << depth) + 1;
     std::vector<T> input(static_cast<std::size_t>(input_size(depth))),
         work(static_cast<std::size_t>(work_size(depth)));
     for (std::size_t p = 0; p < grids.size(); ++p, out += 6 * side * side) {
-      const auto placement = gather(rings_, grids.subspan(p, 1), depth, 1, input.data());
+      const auto placement =
+          gather(rings_, grids.subspan(p, 1), depth, 1, input.data(), Order::kFromA, edges);
       const Target<T> target{out, 0, 6 * side, nullptr, nullptr};
       generic::Stream<N>(input.data(), depth, placement, work.data(), {target}).run();
     }
   }
 
+  /// The same of a grid that is_regular(), from kPolynomialFrom on, as polynomials.
+  void patch(const Grid& grid, int depth, T* out, Order order = Order::kFromA) const {
+    check(depth);
+    std::vector<T> input(static_cast<std::size_t>(input_size(kPatchWindow)));
+    const auto placement = gather_regular(rings_, {&grid, 1}, 1, input.data(), order);
+    const Target<T> target{out, 0, 6 * ((1 << depth) + 1), nullptr, nullptr};
+    generic::TrianglePatch<N>(input.data(), depth, placement, {target}).run();
+  }
+
   /// The points of control edges at a depth of their own, from origin to target: those of half_edges[e] from
   /// out[6 e side].
-  void edges(std::span<const std::int32_t> half_edges, int depth, T* out) const {
+  void edges(std::span<const std::int32_t> half_edges, int depth, T* out,
+             Edges edges = Edges::kAllStreamed) const {
     check(depth);
     std::vector<T> input(static_cast<std::size_t>(edge_input_size(depth))),
         work(static_cast<std::size_t>(edge_work_size(depth)));
     for (std::size_t e = 0; e < half_edges.size(); ++e, out += edge_output_size(depth)) {
-      const auto placement = gather_edges(rings_, half_edges.subspan(e, 1), depth, 1, input.data());
+      const auto placement = gather_edges(rings_, half_edges.subspan(e, 1), depth, 1, input.data(), edges);
       generic::EdgeStream<N>(depth, placement, work.data())
-          .scatter(input.data(), 0, input.data() + edge_block_size(depth), 0,
-                   input.data() + edge_part_offset(depth), generic::LaneRow<N>{out, 0});
+          .scatter(edge_input<T>(input.data(), depth, 1, placement), generic::LaneRow<N>{out, 0});
     }
   }
 

@@ -57,11 +57,11 @@ template <class T>
 struct Batch {
   QuadClass kind;
   std::span<const T> items;
-  std::size_t first;
-  const std::uint32_t* index = nullptr;
+  const std::uint32_t* index;
 
   bool alone() const { return kind == QuadClass::kSemiSharp; }
-  std::size_t number(std::size_t lane) const { return index != nullptr ? index[lane] : first + lane; }
+  bool regular() const { return kind == QuadClass::kRegular; }
+  std::size_t number(std::size_t lane) const { return index[lane]; }
 };
 
 // One for each lane; those beyond the last item repeat it.
@@ -94,86 +94,18 @@ struct CallOf {
   float* input() const { return workspace.input.data(); }
   float* work() const { return workspace.work.data(); }
   void grow(int input_size, int work_size) const { workspace.grow(input_size, work_size, kernel.lanes); }
-};
 
-// And how the schemes differ in that.
-template <class Scheme>
-struct Call;
-
-template <>
-struct Call<LoopStreams> : CallOf<LoopStreams> {
-  static constexpr bool kAnyPlaces = false;  // the lanes of a kernel lie at equal distances
-
-  void prepare() const { grow(input_size(checked(depth)), work_size(depth)); }
-  void prepare_edges() const { grow(edge_input_size(checked(depth)), edge_work_size(depth)); }
-
-  // body(batch) for parts of a list of grids or half-edges; those next to a cut come one by one.
-  template <class T, class Body>
-  void for_each_part(std::span<const T> list, const Body& body) const {
-    for (std::size_t first = 0, count; first < list.size(); first += count) {
-      const auto rest = list.subspan(first);
-      count = std::min(static_cast<std::size_t>(kernel.lanes), rest.size());
-      QuadClass kind = QuadClass::kClosed;
-      if (touched != nullptr) {
-        const auto alone = [&](const T& of) { return touched->touches(of); };
-        count = std::find_if(rest.begin(), rest.begin() + count, alone) - rest.begin();
-        if (count == 0) kind = QuadClass::kSemiSharp, count = 1;
-      }
-      body(Batch<T>{kind, rest.first(count), first});
-    }
-  }
-  template <class Body>
-  void for_each_batch(std::span<const Grid> grids, const Body& body) const {
-    for_each_part(grids, body);
-  }
-  template <class Body>
-  void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
-    for_each_part(half_edges, body);
-  }
-
-  BatchPlacement<float> gathered(const Items& batch) const {
-    return gather(rings, batch.items, depth, kernel.lanes, input(), order);
-  }
-  void run(const Items& batch, const QuadTarget<float>& to) const {
-    const Target<float> target{to.lane[0], to.lane[1] - to.lane[0], to.row_stride, to.row, to.context,
-                               to.row_mask};
-    kernel.run(input(), depth, gathered(batch), work(), target);
-  }
-  void run_lines(const Items& batch, float* const* lane, Stores stores) const {
-    kernel.run_lines(input(), depth, gathered(batch), work(), lane, stores);
-  }
-  // Edge e to at(e); these places follow each other.
-  template <class At>
-  void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {
-    const auto placement = gather_edges(rings, half_edges, depth, kernel.lanes, input());
-    // The lanes beyond the last edge write too, but not into the caller's memory.
-    const bool full = half_edges.size() == static_cast<std::size_t>(kernel.lanes);
-    const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
-    kernel.run_edges(input(), depth, placement, work(), full ? &at(0)->position.x : rest.base,
-                     full ? edge_output_size(depth) : rest.pitch);
-    for (std::size_t e = 0; e < half_edges.size() && !full; ++e)
-      std::copy_n(rest.row(e, 0), side(depth), at(e));
-  }
-};
-
-template <>
-struct Call<QuadStreams> : CallOf<QuadStreams> {
-  static constexpr bool kAnyPlaces = true;
-
-  void prepare() const { grow(quad_input_size(checked(depth)), quad_work_size(depth)); }
-  void prepare_edges() const { prepare(); }
-
-  // body(batch) for quads or half-edges of one class; those next to something semi-sharp come one by one.
-  template <class KindOf, class Body>
-  void by_class(std::span<const std::int32_t> list, const KindOf& kind_of, const Body& body) const {
+  // body(batch) for items or half-edges of one class; those that something alone touches come one by one.
+  template <class T, class KindOf, class Body>
+  void by_class(std::span<const T> list, const KindOf& kind_of, const Body& body) const {
     struct Queue {
-      std::array<std::int32_t, kMaxLanes> items;
+      std::array<T, kMaxLanes> items;
       std::array<std::uint32_t, kMaxLanes> index;
       std::size_t count = 0;
     };
     std::array<Queue, 4> queues;
     const auto empty = [&](QuadClass kind, Queue& queue) {
-      body(Items{kind, {queue.items.data(), queue.count}, 0, queue.index.data()});
+      body(Batch<T>{kind, {queue.items.data(), queue.count}, queue.index.data()});
       queue.count = 0;
     };
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -187,30 +119,85 @@ struct Call<QuadStreams> : CallOf<QuadStreams> {
     for (const QuadClass kind : {QuadClass::kRegular, QuadClass::kClosed, QuadClass::kOpen})
       if (Queue& queue = queues[static_cast<std::size_t>(kind)]; queue.count > 0) empty(kind, queue);
   }
-  template <class Body>
-  void for_each_batch(std::span<const std::int32_t> faces, const Body& body) const {
-    by_class(
-        faces, [&](std::int32_t face) { return rings.kind(face); }, body);
+};
+
+// And how the schemes differ in that.
+template <class Scheme>
+struct Call;
+
+template <>
+struct Call<LoopStreams> : CallOf<LoopStreams> {
+  void prepare() const { grow(input_size(checked(depth)), work_size(depth)); }
+  void prepare_edges() const { grow(edge_input_size(checked(depth)), edge_work_size(depth)); }
+
+  bool has_polynomials() const { return kernel.run_patches != nullptr; }
+  QuadClass kind_of(const Grid& grid) const {
+    if (touched != nullptr && touched->touches(grid)) return QuadClass::kSemiSharp;
+    return has_polynomials() && depth >= kPolynomialFrom && is_regular(rings, grid) ? QuadClass::kRegular
+                                                                                     : QuadClass::kOpen;
   }
-  template <class Body>
-  void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
-    const auto kind_of = [&](std::int32_t h) {
-      return rings.touches_semi_sharp(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
-    };
-    by_class(half_edges, kind_of, body);
+  QuadClass kind_of_edge(std::int32_t h) const {
+    return touched != nullptr && touched->touches(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
+  }
+  // The lanes of a kernel lie at equal distances, and all of them write.
+  bool takes(const LanePlaces& lane, std::size_t count) const {
+    if (count != static_cast<std::size_t>(kernel.lanes)) return false;
+    for (std::size_t k = 2; k < count; ++k)
+      if (lane[k] - lane[k - 1] != lane[1] - lane[0]) return false;
+    return true;
   }
 
+  BatchPlacement<float> gathered(const Items& batch) const {
+    if (batch.regular()) return gather_regular(rings, batch.items, kernel.lanes, input(), order);
+    return gather(rings, batch.items, depth, kernel.lanes, input(), order, edges_by());
+  }
+  void run(const Items& batch, const QuadTarget<float>& to) const {
+    const Target<float> target{to.lane[0], to.lane[1] - to.lane[0], to.row_stride, to.row, to.context,
+                               to.row_mask};
+    (batch.regular() ? kernel.run_patches : kernel.run)(input(), depth, gathered(batch), work(), target);
+  }
+  void run_lines(const Items& batch, float* const* lane, Stores stores) const {
+    (batch.regular() ? kernel.patch_lines : kernel.run_lines)(input(), depth, gathered(batch), work(), lane,
+                                                              stores);
+  }
+  // Edge e to at(e).
+  template <class At>
+  void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {
+    const auto placement = gather_edges(rings, half_edges, depth, kernel.lanes, input(), edges_by());
+    const LanePlaces lane = places_of(half_edges.size(), at);
+    const bool straight = takes(lane, half_edges.size());
+    const RowBuffer rest = RowBuffer::in(workspace.row, depth, kernel.lanes, Kept::kOneRow);
+    kernel.run_edges(input(), depth, placement, work(), straight ? lane[0] : rest.base,
+                     straight ? lane[1] - lane[0] : rest.pitch);
+    for (std::size_t e = 0; e < half_edges.size() && !straight; ++e)
+      std::copy_n(rest.row(e, 0), side(depth), at(e));
+  }
+
+ private:
+  Edges edges_by() const { return has_polynomials() ? Edges::kRegularByPolynomials : Edges::kAllStreamed; }
+};
+
+template <>
+struct Call<QuadStreams> : CallOf<QuadStreams> {
+  void prepare() const { grow(quad_input_size(checked(depth)), quad_work_size(depth)); }
+  void prepare_edges() const { prepare(); }
+
+  QuadClass kind_of(std::int32_t face) const { return rings.kind(face); }
+  QuadClass kind_of_edge(std::int32_t h) const {
+    return rings.touches_semi_sharp(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
+  }
+  static bool takes(const LanePlaces& /*lane*/, std::size_t /*count*/) { return true; }
+
   QuadBatch<float> gathered(const Items& batch) const {
-    const auto gather = batch.kind == QuadClass::kRegular ? gather_patches<float> : gather_quads<float>;
+    const auto gather = batch.regular() ? gather_patches<float> : gather_quads<float>;
     return gather(rings, batch.items, depth, kernel.lanes, input(), order);
   }
   void run(const Items& batch, const QuadTarget<float>& to) const {
-    (batch.kind == QuadClass::kRegular ? kernel.patches : kernel.quads)(gathered(batch), rings.placement(),
-                                                                        work(), to);
+    (batch.regular() ? kernel.patches : kernel.quads)(gathered(batch), rings.placement(), work(), to);
   }
   void run_lines(const Items& batch, float* const* lane, Stores stores) const {
-    (batch.kind == QuadClass::kRegular ? kernel.patch_lines : kernel.quad_lines)(
-        gathered(batch), rings.placement(), work(), lane, stores);
+    (batch.regular() ? kernel.patch_lines : kernel.quad_lines)(gathered(batch), rings.placement(), work(), lane,
+                                                               stores);
   }
   template <class At>
   void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {
@@ -236,7 +223,7 @@ class Rows {
   /// For a batch.
   template <class Items>
   QuadTarget<float> target(const Items& batch) {
-    view_.grids = batch.items.size(), view_.first = batch.first, view_.index = batch.index;
+    view_.grids = batch.items.size(), view_.index = batch.index;
     return {lane_.data(), view_.rows.stride, visit_ != nullptr ? &row : nullptr, this, view_.rows.mask};
   }
 
@@ -285,6 +272,17 @@ struct Evaluation : Call<Scheme> {
   using Items = typename Call<Scheme>::Items;
   using Call<Scheme>::depth, Call<Scheme>::kernel, Call<Scheme>::order, Call<Scheme>::rings;
 
+  template <class Body>
+  void for_each_batch(std::span<const typename Scheme::Item> items, const Body& body) const {
+    this->by_class(
+        items, [&](const auto& item) { return this->kind_of(item); }, body);
+  }
+  template <class Body>
+  void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
+    this->by_class(
+        half_edges, [&](std::int32_t h) { return this->kind_of_edge(h); }, body);
+  }
+
   AloneEvaluator<typename Scheme::Alone>& alone() {
     if (!alone_) alone_.emplace(*this->touched, rings, depth);
     return *alone_;
@@ -303,11 +301,10 @@ struct Evaluation : Call<Scheme> {
     this->for_each_batch(items, [&](const Items& batch) {
       const LanePlaces lane =
           places_of(batch.items.size(), [&](std::size_t k) { return at(batch.number(k)); });
-      const bool full = batch.items.size() == static_cast<std::size_t>(kernel.lanes);
       if (stores && Scheme::has_lines(kernel) && !batch.alone())
         return this->run_lines(batch, lane.data(), *stores);
       // The lanes beyond the last grid would write too, into the caller's memory.
-      if (stores != Stores::kPastCaches && (Call<Scheme>::kAnyPlaces || (full && !stores)))
+      if (stores != Stores::kPastCaches && this->takes(lane, batch.items.size()))
         return evaluate(batch, {lane.data(), 6 * side(depth), nullptr, nullptr});
       evaluate(batch, Rows(*this, Kept::kOneRow, &runs.visit, &runs).target(batch));
     });
@@ -396,8 +393,8 @@ void QuadRowStream::move_points(const QuadMesh& mesh) {
 
 std::vector<Grid> RowStream::sorted(std::span<const Grid> grids) const {
   std::vector<Grid> all(grids.begin(), grids.end());
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Grid& a, const Grid& b) { return local_from(a) < local_from(b); });
+  const auto key = [&](const Grid& grid) { return std::pair(!is_regular(rings_, grid), local_from(grid)); };
+  std::stable_sort(all.begin(), all.end(), [&](const Grid& a, const Grid& b) { return key(a) < key(b); });
   return all;
 }
 

@@ -162,11 +162,14 @@ struct LoopStreamFrames final
 
   template <class Skipped>
   void make_batches(std::size_t first, std::size_t last, Skipped&& skipped) {
-    const auto local = [&](std::size_t i) {
+    const auto rank = [&](std::size_t i) -> std::size_t {
+      if (patches[i].depth >= kPolynomialFrom && is_regular(stream.rings(), pairing.grids[i])) return 0;
       return !stream.rings().local().none(patches[i].depth) &&
-             patches[i].depth >= stream.local_from(pairing.grids[i]);
+                     patches[i].depth >= stream.local_from(pairing.grids[i])
+                 ? 2
+                 : 1;
     };
-    sorted.sort(patches, first, last, skipped, local, static_cast<std::size_t>(stream.kernel().lanes),
+    sorted.sort(patches, first, last, skipped, rank, static_cast<std::size_t>(stream.kernel().lanes),
                 static_cast<std::size_t>(few_lanes.lanes), placed, batches);
   }
 

@@ -43,21 +43,22 @@ class SortedPatches {
  public:
   /// Of patches first .. last - 1 but those skipped: batches of at most `lanes`, or `few` of those delivered whole. In a
   /// fixed order.
-  ///   local    whether some part of a patch has an origin of its own: these come last at each depth
+  ///   rank     of a patch, 0 to 2: patches of one rank, which go together best, follow each other at each depth
   ///   placed   patches of two displayed faces have a place each, where the rows lie as they come from C
-  template <class Skipped, class Local>
+  template <class Skipped, class Rank>
   void sort(std::span<const LoopPatch> patches, std::size_t first, std::size_t last, Skipped&& skipped,
-            Local&& local, std::size_t lanes, std::size_t few, bool placed, std::vector<LoopBatch>& batches) {
+            Rank&& rank, std::size_t lanes, std::size_t few, bool placed, std::vector<LoopBatch>& batches) {
     for (auto& list : lists_) list.clear();
     batches.clear();
     const auto list_of = [&](std::size_t i) -> std::vector<std::size_t>& {
       return lists_[static_cast<std::size_t>(delivery_of(patches[i], placed)) +
                     kDeliveries * static_cast<std::size_t>(patches[i].depth)];
     };
-    last_.clear();
+    for (auto& list : ranked_) list.clear();
     for (std::size_t i = first; i < last; ++i)
-      if (!skipped(i)) (local(i) ? last_ : list_of(i)).push_back(i);
-    for (const std::size_t i : last_) list_of(i).push_back(i);
+      if (!skipped(i)) ranked_[rank(i)].push_back(i);
+    for (const auto& list : ranked_)
+      for (const std::size_t i : list) list_of(i).push_back(i);
     // A remainder joins the row batches, which would leave lanes empty, too.
     for (std::size_t depth = 0; depth <= kMaxDepth && placed; ++depth) {
       auto& pairs = lists_[kDeliveries * depth + static_cast<std::size_t>(Delivery::kPlaced)];
@@ -86,7 +87,7 @@ class SortedPatches {
   }
 
   std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> lists_;
-  std::vector<std::size_t> last_;
+  std::array<std::vector<std::size_t>, 3> ranked_;
 };
 
 /// The border points of a batch's repaired faces: edges of one depth go together, one in each lane.

@@ -19,6 +19,7 @@
 #include "fast/stream/kernel/quad_patch-inl.h"
 #include "fast/stream/kernel/quad_stream-inl.h"
 #include "fast/stream/kernel/stream-inl.h"
+#include "fast/stream/kernel/triangle_patch-inl.h"
 
 #undef HWY_NAMESPACE
 #undef HWY_BEFORE_NAMESPACE
@@ -28,7 +29,9 @@
 #undef HWY_FLATTEN
 // The vector targets include the same files anew.
 #undef LIMITCHECK_FAST_STREAM_STREAM_INL_H_
+#undef LIMITCHECK_FAST_STREAM_REGULAR_EDGE_INL_H_
 #undef LIMITCHECK_FAST_STREAM_STRIP_INL_H_
+#undef LIMITCHECK_FAST_STREAM_TRIANGLE_PATCH_INL_H_
 #undef LIMITCHECK_FAST_STREAM_VERTEX_INL_H_
 #undef LIMITCHECK_FAST_STREAM_QUAD_PATCH_INL_H_
 #undef LIMITCHECK_FAST_STREAM_QUAD_ROWS_INL_H_

@@ -35,7 +35,7 @@ enum Corner { kA = 0, kB = 1, kC = 2, kD = 3 };
 
 /// Ring entries that the grid's own faces and their neighbours take at a corner, counter-clockwise:
 /// flap, (2 faces: 3 points | 1 face: 2 points), flap. Index -1 is the first.
-///   A: SE E NE NW W    C: NW W SW SE E    B: NE NW W SW    D: W SE E NE   (seen from the corner)
+///   A: SE E NE NW W    C: NW W SW SE E    B: NE NW W SW    D: SW SE E NE   (seen from the corner)
 constexpr int core_width(int corner) {
   return corner % 2 == 0 ? 5 : 4;
 }
@@ -73,9 +73,28 @@ constexpr int corner_block_size(int depth) {
 constexpr int parts_offset(int depth) {
   return 4 * corner_block_size(depth);
 }
-constexpr int input_size(int depth) {
+
+/// From this depth on the points of an edge between two regular vertices, which are interior and have six faces each,
+/// come from the polynomials that the surface is along it; and a pair of triangles with four regular corners, two
+/// polynomials, from these.
+inline constexpr int kPolynomialFrom = 2;
+/// The input of such pairs is, whatever their depth, that of batches of this one, whose windows hold a regular ring.
+inline constexpr int kPatchWindow = 1;
+
+/// Of each edge of a grid, by Part, 1 in the lanes in which it is between regular vertices.
+constexpr int regular_offset(int depth) {
   return parts_offset(depth) + kParts;
 }
+constexpr int input_size(int depth) {
+  return regular_offset(depth) + kInside;
+}
+
+/// Where an edge of a grid has its ends: corners, and where in their windows the edge's own begin, counted from the core.
+struct EdgeEnds {
+  int p, p_first, q, q_first;
+};
+inline constexpr EdgeEnds kEdgeEnds[kInside] = {
+    {kA, 0, kB, 1}, {kB, 0, kC, 2}, {kD, 1, kC, 0}, {kA, 2, kD, 0}, {kA, 1, kC, 1}};
 
 /// Working memory of a kernel, in units of `lanes` numbers.
 constexpr int row_size(int level) {
@@ -89,7 +108,7 @@ constexpr int rows_offset(int level) {
 constexpr int kBorderSize = 9;  // centre, first and last core entry
 
 /// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
-/// three; then whether it has an origin of its own.
+/// three; then whether it has an origin of its own, and whether its ends are regular.
 constexpr int edge_window_width(int depth) {
   return 3 + 2 * depth;
 }
@@ -100,11 +119,22 @@ constexpr int edge_part_offset(int depth) {
   return 2 * edge_block_size(depth);
 }
 constexpr int edge_input_size(int depth) {
-  return edge_part_offset(depth) + 1;
+  return edge_part_offset(depth) + 2;
 }
 constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
 }
+/// Where an edge has its ends: their corner blocks, and where in their windows those of the edge begin; the lanes in which
+/// it has an origin of its own, and in which it is between regular vertices: in some of them, in all.
+template <class T>
+struct EdgeInput {
+  const T* p;
+  int p_first;
+  const T* q;
+  int q_first;
+  const T *own, *regular;
+  bool some_regular, all_regular;
+};
 /// Points and one of their tangents; one coordinate of three rows and two windows.
 constexpr int edge_work_size(int depth) {
   return 2 * edge_output_size(depth) + 2 * edge_window_width(depth);
@@ -125,11 +155,27 @@ constexpr int work_size(int depth) {
   return strips_offset(depth) + kKeptEdges * edge_output_size(depth);
 }
 
-/// The coordinates of a batch of grids or edges, and whether some part of it has an origin of its own.
+/// The coordinates of a batch of grids or edges, and whether some part of it has an origin of its own; and the edges, by
+/// Part, that are polynomials in some lane, and in all.
 template <class T>
 struct BatchPlacement : Placement<T> {
   bool local = false;
+  unsigned some_regular = 0, all_regular = 0;
 };
+
+/// Of a batch of edges.
+template <class T>
+EdgeInput<T> edge_input(const T* input, int depth, int lanes, const BatchPlacement<T>& placement) {
+  const T* own = input + edge_part_offset(depth) * lanes;
+  return {input,
+          0,
+          input + edge_block_size(depth) * lanes,
+          0,
+          own,
+          own + lanes,
+          placement.some_regular != 0,
+          placement.all_regular != 0};
+}
 
 /// The unit of limit points of a depth, which the rules leave 12 * 8^depth times too large. Exact where T
 /// divides exactly.

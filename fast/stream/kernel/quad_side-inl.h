@@ -83,13 +83,9 @@ class QuadSideLimit {
   }
   HWY_ATTR HWY_INLINE void choose(int k, Vertex<N>& out) const {
     if (polynomial_ == nullptr) return;
-    const V polynomial = N::load(polynomial_);
-    Vertex<N> other;
-    curve(k, other);
-    for (int c = 0; c < 3; ++c) {
-      out.position[c] = N::select(polynomial, other.position[c], out.position[c]);
-      out.normal[c] = N::select(polynomial, other.normal[c], out.normal[c]);
-    }
+    const Vertex<N> other = out;
+    curve(k, out);
+    out.choose(N::load(polynomial_), other);
   }
 
  private:

@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "fast/stream/kernel/layout.h"
+#include "fast/stream/kernel/regular_edge-inl.h"
 #include "fast/stream/kernel/vertex-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -205,15 +206,36 @@ class EdgeStream {
       : depth_(depth), placement_(placement), unit_(limit_unit(placement.unit, depth)), work_(work) {}
 
   /// Position, and a normal of any length, of points 1 .. 2^depth - 1: to out[6 k .. 6 k + 5], `lanes` numbers each.
-  /// p, q: corner blocks of the ends; p_first, q_first: where in their windows those of the edge begin; own: see
-  /// choose_origin().
-  HWY_ATTR void points(const Scalar* p, int p_first, const Scalar* q, int q_first, const Scalar* own,
-                       Scalar* out) {
+  HWY_ATTR void points(const EdgeInput<Scalar>& edge, Scalar* out) {
+    if (!edge.all_regular) stream(edge, out);
+    if (edge.some_regular) take_regular(edge, out);
+  }
+
+  /// The same, and the ends, as a row.
+  template <class Row>
+  HWY_ATTR void scatter(const EdgeInput<Scalar>& edge, const Row& to) {
+    points(edge, work_);
+    scatter_kept(edge, work_, to);
+  }
+  template <class Row>
+  HWY_ATTR void scatter_kept(const EdgeInput<Scalar>& edge, const Scalar* kept, const Row& to) const {
+    Vertex<N> first, last;
+    first.load(edge.p + CornerBlock::kLimit * L), last.load(edge.q + CornerBlock::kLimit * L);
+    KeptPoints<N> points{kept};
+    scatter_row<N>(points, 1 << depth_, first, last, to);
+  }
+
+ private:
+  Scalar* across_of(int i) const { return work_ + (edge_output_size(depth_) + 3 * i) * L; }
+
+  HWY_ATTR void stream(const EdgeInput<Scalar>& edge, Scalar* out) {
     V origin[3] = {N::splat(0), N::splat(0), N::splat(0)};
     if (placement_.local)
-      choose_origin<N>(own, p + CornerBlock::kCentre * L, q + CornerBlock::kCentre * L, origin);
+      choose_origin<N>(edge.own, edge.p + CornerBlock::kCentre * L, edge.q + CornerBlock::kCentre * L,
+                       origin);
     with_known<N>(depth_, [&](auto known) HWY_ATTR {
-      for (int c = 0; c < 3; ++c) coordinate<known()>(c, p, p_first, q, q_first, origin, out);
+      for (int c = 0; c < 3; ++c)
+        coordinate<known()>(c, edge.p, edge.p_first, edge.q, edge.q_first, origin, out);
     });
     for (int i = 1; i < 1 << depth_; ++i) {
       const Scalar* across = across_of(i);
@@ -226,23 +248,23 @@ class EdgeStream {
     }
   }
 
-  /// The same, and the ends, as a row.
-  template <class Row>
-  HWY_ATTR void scatter(const Scalar* p, int p_first, const Scalar* q, int q_first, const Scalar* own,
-                        const Row& to) {
-    points(p, p_first, q, q_first, own, work_);
-    scatter_kept(p, q, work_, to);
+  // What is between regular vertices.
+  HWY_ATTR void take_regular(const EdgeInput<Scalar>& edge, Scalar* out) const {
+    const auto end = [&](const Scalar* block, int first) {
+      return RegularEnd<N>{block, first + depth_ + 1, first + edge_window_width(depth_)};
+    };
+    const RegularEdge<N> regular(end(edge.p, edge.p_first), end(edge.q, edge.q_first), placement_);
+    RegularEdgeRow<N> row(regular, depth_, 0);
+    for (int i = 1; i < 1 << depth_; ++i) {
+      Vertex<N> v, other;
+      begin_vertex<N, true>(row, v);
+      if (!edge.all_regular) {
+        other.load(out + 6 * i * L);
+        v.choose(N::load(edge.regular), other);
+      }
+      v.store(out + 6 * i * L);
+    }
   }
-  template <class Row>
-  HWY_ATTR void scatter_kept(const Scalar* p, const Scalar* q, const Scalar* kept, const Row& to) const {
-    Vertex<N> first, last;
-    first.load(p + CornerBlock::kLimit * L), last.load(q + CornerBlock::kLimit * L);
-    KeptPoints<N> points{kept};
-    scatter_row<N>(points, 1 << depth_, first, last, to);
-  }
-
- private:
-  Scalar* across_of(int i) const { return work_ + (edge_output_size(depth_) + 3 * i) * L; }
 
   // One coordinate of the points and of their two tangents.
   template <int known>

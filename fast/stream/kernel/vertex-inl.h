@@ -97,6 +97,13 @@ struct Vertex {
 
   HWY_ATTR HWY_INLINE void end() { root_1(), root_2(), root_3(), root_4(), scale(); }
   HWY_ATTR HWY_INLINE void finish() { set_square(), end(); }
+  /// Stays in the lanes that are chosen; elsewhere it is the other. Normals of any length.
+  HWY_ATTR HWY_INLINE void choose(const V& chosen, const Vertex& other) {
+    for (int c = 0; c < 3; ++c) {
+      position[c] = N::select(chosen, position[c], other.position[c]);
+      normal[c] = N::select(chosen, normal[c], other.normal[c]);
+    }
+  }
   HWY_ATTR HWY_INLINE void store(typename N::Scalar* to) const {
     for (int c = 0; c < 3; ++c) {
       N::store(position[c], to + c * N::lanes);

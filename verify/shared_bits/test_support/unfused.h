@@ -78,8 +78,7 @@ class Compared {
         },
         [&](float* input, const auto& placement, float* work, float* out) {
           generic::EdgeStream<Unfused>(depth_, placement, work)
-              .scatter(input, 0, input + edge_block_size(depth_), 0, input + edge_part_offset(depth_),
-                       generic::LaneRow<Unfused>{out, 0});
+              .scatter(edge_input<float>(input, depth_, 1, placement), generic::LaneRow<Unfused>{out, 0});
         });
   }
 

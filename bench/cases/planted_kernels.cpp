@@ -121,6 +121,8 @@ void wrap_all(Kernel& kernel) {
   wrap<Kernel, target, &Kernel::run>(kernel, "loop", "run");
   wrap<Kernel, target, &Kernel::run_edges>(kernel, "loop", "run_edges");
   wrap<Kernel, target, &Kernel::run_lines>(kernel, "loop", "run_lines");
+  wrap<Kernel, target, &Kernel::run_patches>(kernel, "loop", "run_patches");
+  wrap<Kernel, target, &Kernel::patch_lines>(kernel, "loop", "patch_lines");
 }
 template <std::size_t target>
 void wrap_all(QuadKernel& kernel) {

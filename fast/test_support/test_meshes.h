@@ -128,4 +128,19 @@ inline data::ControlMesh grid_torus(int rows, int columns) {
   return mesh;
 }
 
+/// A grid_torus, or what was made of one, with each ninth diagonal the other way: regular pairs beside others.
+inline data::ControlMesh flipped(const data::ControlMesh& torus) {
+  data::ControlMesh mesh{torus.positions, {}};
+  for (std::size_t f = 0; f < torus.faces.size(); f += 2) {
+    const std::int32_t a = torus.faces[f][0], b = torus.faces[f][1], c = torus.faces[f][2],
+                       d = torus.faces[f + 1][2];
+    if (f % 18 == 0) {
+      mesh.faces.push_back({a, b, d}), mesh.faces.push_back({b, c, d});
+    } else {
+      mesh.faces.push_back({a, b, c}), mesh.faces.push_back({a, c, d});
+    }
+  }
+  return mesh;
+}
+
 }  // namespace limitcheck::fast

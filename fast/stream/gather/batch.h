@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 #include "fast/mesh/adjacency.h"
 #include "fast/plan/pairing.h"
@@ -75,21 +74,26 @@ struct Corners {
   int first;
 };
 
-// Corner blocks, with windows of `width` entries.
+// Corner blocks, with windows of `width` entries. Returns in which lanes the corner is regular: bit k for lane k.
 template <class N>
-void put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int width, int depth, int lanes,
-                 typename N::Scalar* out) {
+unsigned put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int width, int depth, int lanes,
+                     typename N::Scalar* out) {
   using T = typename N::Scalar;
   const T *head[kMaxLanes] = {}, *window[kMaxLanes] = {};
   const int first = corners.first - depth;
+  unsigned regular = 0;
   for (int lane = 0; lane < lanes; ++lane) {
     const auto& at = rings.corner(corners.half_edge[lane]);
     head[lane] = rings.numbers() + 3 * static_cast<std::ptrdiff_t>(at.head);
     window[lane] = rings.numbers() + 3 * (static_cast<std::ptrdiff_t>(at.entry) + first);
+    regular |= static_cast<unsigned>(at.regular) << lane;
   }
   to_lanes<T>(head, CornerBlock::kWindow, lanes, out);
   out += CornerBlock::kWindow * lanes;
-  if (rings.reaches(depth)) return to_lanes<T>(window, 3 * width, lanes, out);
+  if (rings.reaches(depth)) {
+    to_lanes<T>(window, 3 * width, lanes, out);
+    return regular;
+  }
   const Adjacency& adjacency = rings.adjacency();
   for (int lane = 0; lane < lanes; ++lane) {  // round a closed ring, often more than once
     const std::int32_t v = adjacency.origin(corners.half_edge[lane]);
@@ -99,6 +103,7 @@ void put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int wid
       out[k * lanes + lane] =
           adjacency.on_boundary(v) ? window[lane][k] : ring[3 * ((start + k / 3) % n) + k % 3];
   }
+  return regular;
 }
 
 // Where a singleton without neighbour has no fourth corner: the ghost across its diagonal, and nothing around
@@ -130,21 +135,14 @@ bool put_parts(const LocalOrigins& local, int depth, int lanes, int count, T* ou
   return some;
 }
 
-// Which of `count` edges are between regular vertices: ends(edge) are corners.
-template <class N, class Ends>
-void put_regular(const BasicLoopRings<N>& rings, int count, int lanes, const Ends& ends,
-                 typename N::Scalar* out, BatchPlacement<typename N::Scalar>& placement) {
-  for (int edge = 0; edge < count; ++edge) {
-    const auto [p, q] = ends(edge);
-    unsigned some = 0, all = 1;
-    for (int lane = 0; lane < lanes; ++lane) {
-      const unsigned regular =
-          rings.corner(p->half_edge[lane]).regular & rings.corner(q->half_edge[lane]).regular;
-      some |= regular, all &= regular;
-      out[edge * lanes + lane] = typename N::Scalar(static_cast<int>(regular));
-    }
-    placement.some_regular |= some << edge, placement.all_regular |= all << edge;
-  }
+// Tells the kernel in which lanes an edge is between regular vertices.
+template <class T>
+void put_regular(unsigned regular, int edge, int lanes, T* out, BatchPlacement<T>& placement) {
+  if (regular == 0) return;
+  const unsigned every = (1U << lanes) - 1;
+  placement.some_regular |= 1U << edge, placement.all_regular |= (regular == every ? 1U : 0U) << edge;
+  for (int lane = 0; lane < lanes; ++lane)
+    out[edge * lanes + lane] = T(static_cast<int>(regular >> lane & 1));
 }
 
 }  // namespace detail
@@ -178,8 +176,9 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
   const auto block = [&](int corner) {
     return input + (corner ^ static_cast<int>(order)) * corner_block_size(depth) * lanes;
   };
+  std::array<unsigned, 4> regular{};
   for (const int k : {kA, kB, kC, kD})
-    detail::put_corners(rings, corners[k], window_width(k, depth), depth, lanes, block(k));
+    regular[k] = detail::put_corners(rings, corners[k], window_width(k, depth), depth, lanes, block(k));
   for (int lane = 0; lane < lanes; ++lane) {
     if (ghost[lane])
       detail::put_ghost(rings, corners[kA].half_edge[lane], kB, depth, lanes, block(kB) + lane);
@@ -193,16 +192,15 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
     return h >= 0 && depth >= local.of_edge<3>(h);
   };
   BatchPlacement<typename N::Scalar> placement{
-      rings.placement(),
-      detail::put_parts(
-          local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
-          [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
-  const auto ends = [&](int edge) {
-    const auto at = [&](int corner) { return &corners[corner ^ static_cast<int>(order)]; };
-    return std::pair(at(kEdgeEnds[edge].p), at(kEdgeEnds[edge].q));
-  };
-  if (edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom)
-    detail::put_regular(rings, kInside, lanes, ends, input + regular_offset(depth) * lanes, placement);
+      rings.placement(), detail::put_parts(
+                             local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
+                             [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
+  for (int edge = 0; edge < kInside && edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom;
+       ++edge) {
+    const auto at = [&](int corner) { return regular[corner ^ static_cast<int>(order)]; };
+    detail::put_regular(at(kEdgeEnds[edge].p) & at(kEdgeEnds[edge].q), edge, lanes,
+                        input + regular_offset(depth) * lanes, placement);
+  }
   return placement;
 }
 
@@ -228,15 +226,16 @@ BatchPlacement<typename N::Scalar> gather_edges(const BasicLoopRings<N>& rings,
   for (int lane = 0; lane < lanes; ++lane)
     p.half_edge[lane] = half_edge(lane), q.half_edge[lane] = Adjacency::next(half_edge(lane));
   const int width = edge_window_width(depth);
-  detail::put_corners(rings, p, width, depth, lanes, input);
-  detail::put_corners(rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
+  const unsigned at_p = detail::put_corners(rings, p, width, depth, lanes, input),
+                 at_q = detail::put_corners(rings, q, width, depth, lanes,
+                                            input + edge_block_size(depth) * lanes);
   const auto from = [&](int lane) { return rings.local().template of_edge<3>(half_edge(lane)); };
   typename N::Scalar* const flags = input + edge_part_offset(depth) * lanes;
   BatchPlacement<typename N::Scalar> placement{
       rings.placement(), detail::put_parts(rings.local(), depth, lanes, 1, flags, from,
                                            [&](int lane, int) { return depth >= from(lane); })};
   if (edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom)
-    detail::put_regular(rings, 1, lanes, [&](int) { return std::pair(&p, &q); }, flags + lanes, placement);
+    detail::put_regular(at_p & at_q, 0, lanes, flags + lanes, placement);
   return placement;
 }
 

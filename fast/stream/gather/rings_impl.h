@@ -120,8 +120,8 @@ void BasicLoopRings<N>::make_vertex(std::int32_t v, VertexKind kind, Scratch& sc
   const std::int32_t first = heads_[v] + kHeadPoints + (open ? kOpenReach : kReach);
   const bool regular = !open && n == 6 && kind == VertexKind::kPlain;
   for (std::size_t k = 0; k < faces; ++k) {
-    const auto entry = static_cast<std::uint32_t>(first) +
-                       static_cast<std::uint32_t>(k < start ? k + n - start : k - start);
+    const auto entry =
+        static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(k < start ? k + n - start : k - start);
     corners_[fan[k]] = {heads_[v], entry & 0x7fffffffU, regular ? 1U : 0U};
   }
   // Four numbers for three, of which the next point overwrites the last.

@@ -236,6 +236,82 @@ TEST(NumberStream, EdgesAloneAreThoseOfTheGridExactly) {
   }
 }
 
+// Of six numbers each: position and a tangent, from runs for either tangent.
+struct Tangents {
+  std::vector<Rational> first, second;
+
+  /// Whether point i has the position and the tangent plane, with its side, that point k of the others has.
+  bool agrees(std::size_t i, const Tangents& other, std::size_t k) const {
+    const auto normal = [](const Tangents& t, std::size_t at, std::size_t c) {
+      const Rational *a = &t.first[6 * at + 3], *b = &t.second[6 * at + 3];
+      return a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+    };
+    Rational along = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (first[6 * i + c] != other.first[6 * k + c]) return false;
+      const std::size_t d = (c + 1) % 3;
+      if (normal(*this, i, c) * normal(other, k, d) != normal(*this, i, d) * normal(other, k, c))
+        return false;
+      along += normal(*this, i, c) * normal(other, k, c);
+    }
+    return along > 0;
+  }
+};
+
+// Regular edges and pairs as polynomials against the steps of subdivision, beside irregular ones and alone.
+TEST(NumberStream, ByPolynomialsIsTheSameSurfaceExactly) {
+  const auto mesh = shaken(grid_sheet(4, 4), .1, 4);  // regular inside
+  const Adjacency adjacency(mesh);
+  const auto points = exactly(mesh);
+  const NumberStream<LinearNumber<Rational, 0>> first(adjacency, points);
+  const NumberStream<LinearNumber<Rational, 1>> second(adjacency, points);
+  int patches = 0, edges = 0, others = 0;
+  for (const int depth : {2, 3, 5}) {
+    const std::size_t n = (std::size_t{1} << depth) + 1;
+    const auto evaluated = [&](std::size_t count, const auto& run) {
+      Tangents both{std::vector<Rational>(6 * count), std::vector<Rational>(6 * count)};
+      run(first, both.first.data()), run(second, both.second.data());
+      return both;
+    };
+    auto grids = grids_of(adjacency, depth);
+    if (depth == 5) grids.erase(grids.begin() + 3, grids.end());
+    for (const Grid& grid : grids) {
+      const auto streamed = evaluated(n * n, [&](const auto& s, Rational* out) {
+        s.whole({&grid, 1}, depth, out);
+      });
+      const auto with_edges = evaluated(n * n, [&](const auto& s, Rational* out) {
+        s.whole({&grid, 1}, depth, out, Edges::kRegularByPolynomials);
+      });
+      for (std::size_t k = 0; k < n * n; ++k)
+        EXPECT_TRUE((grid.singleton() && k % n > k / n) || with_edges.agrees(k, streamed, k))
+            << depth << " " << k;
+      edges += with_edges.second == streamed.second ? 0 : 1;
+      if (!is_regular(first.rings(), grid)) {
+        ++others;
+        continue;
+      }
+      ++patches;
+      for (const Order order : {Order::kFromA, Order::kFromC}) {
+        const auto patch =
+            evaluated(n * n, [&](const auto& s, Rational* out) { s.patch(grid, depth, out, order); });
+        for (std::size_t k = 0; k < n * n; ++k)
+          EXPECT_TRUE(patch.agrees(order == Order::kFromA ? k : n * n - 1 - k, streamed, k))
+              << depth << " " << k;
+      }
+    }
+    for (std::int32_t h = 0; h < (depth == 5 ? 9 : 3 * adjacency.face_count()); ++h) {
+      const auto line = [&](Edges by) {
+        return evaluated(n, [&](const auto& s, Rational* out) { s.edges({&h, 1}, depth, out, by); });
+      };
+      const auto streamed = line(Edges::kAllStreamed), regular = line(Edges::kRegularByPolynomials);
+      for (std::size_t k = 0; k < n; ++k) EXPECT_TRUE(regular.agrees(k, streamed, k)) << depth << " " << h;
+    }
+  }
+  EXPECT_GT(patches, 0);
+  EXPECT_GT(others, 0);
+  EXPECT_GT(edges, patches);
+}
+
 TEST(DoubleStream, IsWithinFiveTimesTenToTheMinusSixteenOfTheExactLimit) {
   double worst = 0, worst_normal = 0;
   for (const auto& mesh : rational_meshes()) {

@@ -134,7 +134,7 @@ struct Call<LoopStreams> : CallOf<LoopStreams> {
   QuadClass kind_of(const Grid& grid) const {
     if (touched != nullptr && touched->touches(grid)) return QuadClass::kSemiSharp;
     return has_polynomials() && depth >= kPolynomialFrom && is_regular(rings, grid) ? QuadClass::kRegular
-                                                                                     : QuadClass::kOpen;
+                                                                                    : QuadClass::kOpen;
   }
   QuadClass kind_of_edge(std::int32_t h) const {
     return touched != nullptr && touched->touches(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
@@ -196,8 +196,8 @@ struct Call<QuadStreams> : CallOf<QuadStreams> {
     (batch.regular() ? kernel.patches : kernel.quads)(gathered(batch), rings.placement(), work(), to);
   }
   void run_lines(const Items& batch, float* const* lane, Stores stores) const {
-    (batch.regular() ? kernel.patch_lines : kernel.quad_lines)(gathered(batch), rings.placement(), work(), lane,
-                                                               stores);
+    (batch.regular() ? kernel.patch_lines : kernel.quad_lines)(gathered(batch), rings.placement(), work(),
+                                                               lane, stores);
   }
   template <class At>
   void run_edges(std::span<const std::int32_t> half_edges, const At& at) const {

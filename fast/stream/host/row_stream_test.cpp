@@ -28,7 +28,8 @@ std::vector<NamedMesh> closed_meshes() {
           {"shaken tetrahedron", shaken(tetrahedron(), .3, 1)},
           {"shaken bipyramid 5", shaken(bipyramid(5), .3, 2)},
           {"shaken torus", shaken(grid_torus(5, 4), .3, 3)},
-          {"pinched torus", pinched(shaken(grid_torus(9, 7), .1, 9))}};
+          {"flipped torus", flipped(shaken(grid_torus(9, 7), .1, 9))},
+          {"pinched torus", pinched(flipped(shaken(grid_torus(9, 7), .1, 9)))}};
 }
 
 std::vector<NamedMesh> open_meshes() {
@@ -158,9 +159,11 @@ TEST(RowStreamTargets, EachRunsTheCodeItNames) {
 // one code for all depths.
 TEST(RowStreamTargets, GiveTheBitsOfThePlainKernelWithOriginsOfTheirOwn) {
   data::SplitMix64 random(3);
-  const BatchPlacement<float> placement{{{.1f, -.2f, .3f}, 1.5f}, true};
+  BatchPlacement<float> placement{{{.1f, -.2f, .3f}, 1.5f}, true};
   for (const Kernel& kernel : kernels()) {
     for (int depth = 1; depth <= 5; ++depth) {
+      placement.some_regular = depth < kPolynomialFrom ? 0 : static_cast<unsigned>(random.next() % 32);
+      placement.all_regular = placement.some_regular & static_cast<unsigned>(random.next());
       const int lanes = kernel.lanes, count = input_size(depth), numbers = 6 * side(depth) * side(depth);
       AlignedFloats input, one, work, got, want;
       input.grow(lanes * count), one.grow(count), work.grow(lanes * work_size(depth));

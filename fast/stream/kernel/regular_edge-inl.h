@@ -24,9 +24,7 @@ struct RegularEnd {
   const typename N::Scalar* block;  // see CornerBlock
   int other, width;                 // which entry of its window the other end is, of how many
 
-  HWY_ATTR HWY_INLINE V centre(int c) const {
-    return N::load(block + (CornerBlock::kCentre + c) * N::lanes);
-  }
+  HWY_ATTR HWY_INLINE V centre(int c) const { return N::load(block + (CornerBlock::kCentre + c) * N::lanes); }
   /// The six points around it counter-clockwise, number 0 the other end.
   HWY_ATTR HWY_INLINE V ring(int k, int c) const {
     const int t = other + k < width ? other + k : other + k - 6;
@@ -76,8 +74,10 @@ class RegularEdge {
   }
 
   /// A point at t of its square, see begin_vertex().
-  HWY_ATTR HWY_INLINE void coordinate(V t, V square, int c, Vertex<N>& v, V (&along)[3], V (&across)[3]) const {
-    const V two = N::splat(2), c2 = get(kPosition + 2, c), c3 = get(kPosition + 3, c), c4 = get(kPosition + 4, c);
+  HWY_ATTR HWY_INLINE void coordinate(V t, V square, int c, Vertex<N>& v, V (&along)[3],
+                                      V (&across)[3]) const {
+    const V two = N::splat(2), c2 = get(kPosition + 2, c), c3 = get(kPosition + 3, c),
+            c4 = get(kPosition + 4, c);
     const V even = N::fma(c4, square, c2), odd = N::fma(c3, square, get(kPosition + 1, c));
     const V position = N::fma(t, odd, N::fma(even, square, get(kPosition, c)));
     v.position[c] = N::fma(position, unit_, get(kOrigin, c));

@@ -67,9 +67,8 @@ HWY_ATTR void run_patch_lines(float* input, int depth, const BatchPlacement<floa
 void list_kernels([[maybe_unused]] std::vector<Kernel>& list) {
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
   for_each_lane_count([&]<int lanes>() {
-    list.push_back(
-        {target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>, &run_edge_lanes<lanes>, nullptr,
-         &run_patch_lanes<lanes>, nullptr});
+    list.push_back({target_name(lanes), lanes, HWY_NATIVE_FMA != 0, &run_lanes<lanes>, &run_edge_lanes<lanes>,
+                    nullptr, &run_patch_lanes<lanes>, nullptr});
 #if HWY_TARGET == HWY_AVX3
     if (lanes == 16) list.back().run_lines = &run_lines, list.back().patch_lines = &run_patch_lines;
 #endif
@@ -102,7 +101,8 @@ const char* run_patch_scalar(float* input, int depth, const BatchPlacement<float
 void run_edge_scalar(const float* input, int depth, const BatchPlacement<float>& placement, float* work,
                      float* out, std::ptrdiff_t lane_stride) {
   generic::EdgeStream<ScalarNumber<float>>(depth, placement, work)
-      .scatter(edge_input(input, depth, 1, placement), generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
+      .scatter(edge_input(input, depth, 1, placement),
+               generic::LaneRow<ScalarNumber<float>>{out, lane_stride});
 }
 
 }  // namespace
@@ -111,8 +111,7 @@ std::span<const Kernel> kernels() {
   static const std::vector<Kernel> list = [] {
     std::vector<Kernel> all;
     ask_every_target([&] { HWY_DYNAMIC_DISPATCH(list_kernels)(all); });
-    all.push_back(
-        {"scalar", 1, false, &run_scalar, &run_edge_scalar, nullptr, &run_patch_scalar, nullptr});
+    all.push_back({"scalar", 1, false, &run_scalar, &run_edge_scalar, nullptr, &run_patch_scalar, nullptr});
     return all;
   }();
   return list;

@@ -87,9 +87,8 @@ class TrianglePatch {
   HWY_FLATTEN HWY_ATTR void prepare(int c, const V& origin) {
     V p[4][4];  // point (i, j) is [j + 1][i + 1]
     const auto at = [&](int i, int j) HWY_ATTR { return p[j + 1][i + 1]; };
-    const auto put = [&](int i, int j, int corner, int number) HWY_ATTR {
-      p[j + 1][i + 1] = N::load(block(corner) + (number + c) * L) - origin;
-    };
+    const auto put = [&](int i, int j, int corner, int number)
+                         HWY_ATTR { p[j + 1][i + 1] = N::load(block(corner) + (number + c) * L) - origin; };
     const auto entry = [](int t) { return CornerBlock::kWindow + 3 * t; };
     put(0, 0, kA, CornerBlock::kCentre), put(1, 0, kB, CornerBlock::kCentre);
     put(1, 1, kC, CornerBlock::kCentre), put(0, 1, kD, CornerBlock::kCentre);
@@ -119,15 +118,15 @@ class TrianglePatch {
     keep(k1, N::splat(1. / 16) * (sums + (at(-1, -1) + at(2, 2))));
     keep(kX, slope(to_b, e, n)), keep(kY, slope(N::splat(-1) * to_b, n, e));
     keep(kX2, three * (xa + xc)), keep(kY2, three * (ya + yc));
-    keep(kXY, N::splat(1.5) *
-                  N::fma(N::splat(4), ac - bd, (z(0) + z(1)) - ((xa + xc) + (ya + yc))));
+    keep(kXY, N::splat(1.5) * N::fma(N::splat(4), ac - bd, (z(0) + z(1)) - ((xa + xc) + (ya + yc))));
 
     // a, c: of the triangle's own ends of the diagonal; b: of its third corner; beyond: of the one across the opposite
     // side. Half a turn makes one triangle the other.
-    const auto own = [&](int triangle, const V& x_a, const V& x_c, const V& x_b, const V& x_beyond, const V& y_a,
-                         const V& y_c, const V& y_b, const V& y_beyond) HWY_ATTR {
+    const auto own = [&](int triangle, const V& x_a, const V& x_c, const V& x_b, const V& x_beyond,
+                         const V& y_a, const V& y_c, const V& y_b, const V& y_beyond) HWY_ATTR {
       const V sign = N::splat(triangle == 0 ? 1 : -1), thrice = N::splat(triangle == 0 ? 3 : -3);
-      const auto keep_own = [&](int k, const V& value) HWY_ATTR { keep(kShared + triangle * kOwn + k, value); };
+      const auto keep_own = [&](int k, const V& value)
+                                HWY_ATTR { keep(kShared + triangle * kOwn + k, value); };
       keep_own(kX3, sign * N::fma(N::splat(-3), x_a, (x_c + x_b) + x_beyond));
       keep_own(kX2Y, thrice * ((x_a - x_b) + (x_c - x_beyond)));
       keep_own(kXY2, thrice * ((y_b - y_a) + (y_beyond - y_c)));
@@ -148,9 +147,8 @@ class TrianglePatch {
         const Scalar* shared = power_ + c * L;
         const Scalar* own = shared + 3 * (kShared + triangle * kOwn) * L;
         const auto of = [](const Scalar* list, int k) HWY_ATTR { return N::load(list + 3 * k * L); };
-        const auto keep = [&](int k, const V& value) HWY_ATTR {
-          N::store(value, row_ + (3 * (triangle * kRow + k) + c) * L);
-        };
+        const auto keep = [&](int k, const V& value)
+                              HWY_ATTR { N::store(value, row_ + (3 * (triangle * kRow + k) + c) * L); };
         const V x4 = of(own, kX4), y4 = of(own, kY4), x2y = of(own, kX2Y);
         V value = N::fma(y4, y, of(own, kY3)), slope = N::fma(y4, y, value);
         value = N::fma(value, y, of(shared, kY2)), slope = N::fma(slope, y, value);
@@ -196,8 +194,8 @@ class TrianglePatch {
               r = N::fma(q, x_, number(1));
       v.position[c] = N::fma(N::fma(r, x_, number(0)), unit_, centre_[c]);
       along[c] = N::fma(N::fma(N::fma(x4, x_, p), x_, q), x_, r);
-      across[c] = N::fma(N::fma(N::fma(number(kSlope + 3), x_, number(kSlope + 2)), x_, number(kSlope + 1)), x_,
-                         number(kSlope));
+      across[c] = N::fma(N::fma(N::fma(number(kSlope + 3), x_, number(kSlope + 2)), x_, number(kSlope + 1)),
+                         x_, number(kSlope));
     }
 
    private:

@@ -135,11 +135,14 @@ void stream_triangles(ProvedKernel kernel, const data::ControlMesh& mesh, std::s
     for (std::size_t column = 0; column <= (twin < 0 ? row : width - 1); ++column)
       visited.push_back(row * width + column);
 
+  const bool patch = kernel == ProvedKernel::kRowStreamPatch;
+  // As StreamRuns has them.
+  const std::vector<Edges> ways = ways_of(rings, twin < 0 ? 1 : 2, patch ? 0 : depth);
   AlignedFloats input, work;
   for (const Kernel& target : scalar_first(kernels())) {
     input.grow(static_cast<std::size_t>(target.lanes * input_size(depth)));
     work.grow(static_cast<std::size_t>(target.lanes * work_size(depth)));
-    const auto gather_pairs = [&](const std::vector<std::int32_t>& copy) {
+    const auto gather_pairs = [&](const std::vector<std::int32_t>& copy, Edges edges) {
       std::vector<fast::Grid> grids;
       for (const std::int32_t face : of_lanes(copy, 0, faces)) {
         if (twin < 0)
@@ -147,29 +150,36 @@ void stream_triangles(ProvedKernel kernel, const data::ControlMesh& mesh, std::s
         else
           grids.push_back({face, face + twin / 3, 0, twin % 3, depth});
       }
-      return gather(rings, std::span<const fast::Grid>(grids), depth, target.lanes, input.data());
+      const std::span<const fast::Grid> all_pairs(grids);
+      if (patch) return gather_regular(rings, all_pairs, target.lanes, input.data());
+      return gather(rings, all_pairs, depth, target.lanes, input.data(), Order::kFromA, edges);
     };
     collector.begin(target.name, target.lanes);
-    if (kernel == ProvedKernel::kRowStreamEdge) {
-      for (std::int32_t h = 0; h < (twin < 0 ? 3 : 6); ++h)
-        collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-          const auto edges = of_lanes(copy, h, 3 * faces);
-          const auto placement =
-              gather_edges(rings, std::span<const std::int32_t>(edges), depth, target.lanes, input.data());
-          target.run_edges(input.data(), depth, placement, work.data(), out, stride);
-        });
-      continue;
+    for (const Edges edges : ways) {
+      if (kernel == ProvedKernel::kRowStreamEdge) {
+        for (std::int32_t h = 0; h < (twin < 0 ? 3 : 6); ++h)
+          collector.add(width, all_of(width), [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+            const auto list = of_lanes(copy, h, 3 * faces);
+            const auto placement = gather_edges(rings, std::span<const std::int32_t>(list), depth,
+                                                target.lanes, input.data(), edges);
+            target.run_edges(input.data(), depth, placement, work.data(), out, stride);
+          });
+        continue;
+      }
+      const auto row = static_cast<std::ptrdiff_t>(6 * width);
+      collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+        (patch ? target.run_patches : target.run)(input.data(), depth, gather_pairs(copy, edges), work.data(),
+                                                  {out, stride, row, nullptr, nullptr});
+      });
     }
-    const auto row = static_cast<std::ptrdiff_t>(6 * width);
-    collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-      target.run(input.data(), depth, gather_pairs(copy), work.data(), {out, stride, row, nullptr, nullptr});
-    });
-    if (target.run_lines == nullptr) continue;
+    const auto lines = patch ? target.patch_lines : target.run_lines;
+    if (lines == nullptr || kernel == ProvedKernel::kRowStreamEdge) continue;
     collector.begin(target.name, target.lanes);
-    collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
-      target.run_lines(input.data(), depth, gather_pairs(copy), work.data(),
-                       lanes_of(out, stride, target.lanes).data(), fast::Stores::kOrdinary);
-    });
+    for (const Edges edges : ways)
+      collector.add(width * width, visited, [&](const auto& copy, float* out, std::ptrdiff_t stride) {
+        lines(input.data(), depth, gather_pairs(copy, edges), work.data(),
+              lanes_of(out, stride, target.lanes).data(), fast::Stores::kOrdinary);
+      });
   }
 }
 

@@ -25,8 +25,12 @@ const MapOptions kOptions{Arithmetic::kResidues, kDepth, kDepth};
 struct Triangles {
   using Runs = SchemeRuns<TriangleRuns, Number, detail::StencilLane<Residue>::Lane>;
   using Maps = std::tuple<ReferenceMap<Residue, reference::SubdivisionEvaluator<Residue>>>;
-  static constexpr std::array kKernels{ProvedKernel::kSlidingWindow, ProvedKernel::kRowStream};
-  static Neighbourhood topology(ProvedKernel) { return *interior_pair({5, 7, 4, 8}); }
+  static constexpr std::array kKernels{ProvedKernel::kSlidingWindow, ProvedKernel::kRowStream,
+                                       ProvedKernel::kRowStreamPatch};
+  static Neighbourhood topology(ProvedKernel kernel) {
+    return *interior_pair(kernel == ProvedKernel::kRowStreamPatch ? std::array{6, 6, 6, 6}
+                                                                  : std::array{5, 7, 4, 8});
+  }
   static bool is_place(const fast::LatticePoint& p) { return p.i + p.j <= p.denominator; }
   static fast::LatticePoint turned(const fast::LatticePoint& p) {
     return {p.face, p.j, p.denominator - p.i - p.j, p.denominator};

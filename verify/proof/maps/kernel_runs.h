@@ -135,6 +135,17 @@ class TwoRuns {
   std::vector<T> first_, second_;
 };
 
+/// How the edges of the first faces are evaluated: in both ways, if these differ somewhere.
+template <class N>
+std::vector<fast::row_stream::Edges> ways_of(const fast::row_stream::BasicLoopRings<N>& rings,
+                                             std::int32_t faces, int depth) {
+  using fast::row_stream::Edges;
+  for (std::int32_t h = 0; h < 3 * faces && depth >= fast::row_stream::kPolynomialFrom; ++h)
+    if (rings.corner(h).regular != 0 && rings.corner(fast::Adjacency::next(h)).regular != 0)
+      return {Edges::kAllStreamed, Edges::kRegularByPolynomials};
+  return {Edges::kAllStreamed};
+}
+
 /// The prepass, the gathering and the kernel of row streaming over T. Lane<0> and Lane<1> are LinearNumber<T, 0> and
 /// <T, 1> or follow them.
 template <class T, template <int> class Lane>
@@ -147,37 +158,60 @@ class StreamRuns {
   StreamRuns(const StreamRuns&) = delete;
   StreamRuns& operator=(const StreamRuns&) = delete;
 
-  /// The pair of half-edge 0, or face 0 if that has no neighbour. Calls visit(LatticePoint, const LimitFrame<T>&),
-  /// row by row.
+  /// The pair of half-edge 0, or face 0 if that has no neighbour, streamed. Calls visit(LatticePoint, const
+  /// LimitFrame<T>&), row by row; once more with its regular edges as polynomials, if it has some.
   template <class Visit>
   void whole(int depth, Visit&& visit) const {
-    const std::int32_t twin = adjacency_.twin(0);
-    const bool alone = twin < 0;
-    const fast::Grid pair =
-        alone ? fast::Grid{.face0 = 0, .depth = depth} : fast::Grid{0, twin / 3, 0, twin % 3, depth};
-    const int size = 1 << depth, side = size + 1;
-    const TwoRuns<T> points(side * side, [&](auto tangent, T* out) {
-      std::get<tangent>(streams_).whole({&pair, 1}, depth, out);
-    });
-    for (int row = 0; row <= size; ++row)
-      for (int column = 0; column <= (alone ? row : size); ++column)
-        visit(fast::face_point(pair, size, column, row, row >= column), points[row * side + column]);
+    for (const fast::row_stream::Edges edges : ways(depth))
+      visit_pair(
+          depth,
+          [&](const auto& stream, const fast::Grid& pair, T* out) {
+            stream.whole({&pair, 1}, depth, out, edges);
+          },
+          visit);
+  }
+  /// The same pair as two polynomials: one with regular corners.
+  bool has_patch() const { return is_regular(std::get<0>(streams_).rings(), pair()); }
+  template <class Visit>
+  void patch(int depth, Visit&& visit) const {
+    visit_pair(
+        depth, [&](const auto& stream, const fast::Grid& pair, T* out) { stream.patch(pair, depth, out); },
+        visit);
   }
 
-  /// The strip of each side, from its origin to its end.
+  /// The strip of each side, from its origin to its end; once more with regular ones as polynomials.
   template <class Visit>
   void sides(int depth, Visit&& visit) const {
     const int size = 1 << depth;
-    for (std::int32_t h = 0; h < 3 * proved_faces(adjacency_); ++h) {
-      const TwoRuns<T> points(size + 1, [&](auto tangent, T* out) {
-        std::get<tangent>(streams_).edges({&h, 1}, depth, out);
-      });
-      const fast::Half half{h / 3, h % 3, fast::Display::kFan};
-      for (int t = 0; t <= size; ++t) visit(half.lattice(size, size - t, t), points[t]);
+    for (const fast::row_stream::Edges edges : ways(depth)) {
+      for (std::int32_t h = 0; h < 3 * proved_faces(adjacency_); ++h) {
+        const TwoRuns<T> points(size + 1, [&](auto tangent, T* out) {
+          std::get<tangent>(streams_).edges({&h, 1}, depth, out, edges);
+        });
+        const fast::Half half{h / 3, h % 3, fast::Display::kFan};
+        for (int t = 0; t <= size; ++t) visit(half.lattice(size, size - t, t), points[t]);
+      }
     }
   }
 
  private:
+  fast::Grid pair(int depth = 0) const {
+    const std::int32_t twin = adjacency_.twin(0);
+    return twin < 0 ? fast::Grid{.face0 = 0, .depth = depth} : fast::Grid{0, twin / 3, 0, twin % 3, depth};
+  }
+  std::vector<fast::row_stream::Edges> ways(int depth) const {
+    return ways_of(std::get<0>(streams_).rings(), proved_faces(adjacency_), depth);
+  }
+  template <class Run, class Visit>
+  void visit_pair(int depth, const Run& run, Visit&& visit) const {
+    const fast::Grid both = pair(depth);
+    const int size = 1 << depth, side = size + 1;
+    const TwoRuns<T> points(side * side,
+                            [&](auto tangent, T* out) { run(std::get<tangent>(streams_), both, out); });
+    for (int row = 0; row <= size; ++row)
+      for (int column = 0; column <= (both.singleton() ? row : size); ++column)
+        visit(fast::face_point(both, size, column, row, row >= column), points[row * side + column]);
+  }
   static std::vector<std::array<T, 3>> arrays(const std::vector<fast::Vec3<T>>& positions) {
     std::vector<std::array<T, 3>> result;
     for (const auto& p : positions) result.push_back({p.x, p.y, p.z});

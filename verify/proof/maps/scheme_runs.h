@@ -225,9 +225,7 @@ class SchemeRuns {
   bool has(ProvedKernel kernel) {
     if (kernel == ProvedKernel::kCrackCentre) return !Scheme::kQuads;
     if (is_stream(kernel) && !Scheme::has_stream(mesh_)) return false;
-    if (kernel != ProvedKernel::kRowStreamPatch) return true;
-    if constexpr (Scheme::kQuads) return made(stream_).has_patch();
-    return false;
+    return kernel != ProvedKernel::kRowStreamPatch || made(stream_).has_patch();
   }
   /// visit(LatticePoint, const LimitFrame<T>&) for every point, always in the same order.
   template <class Visit>
@@ -236,8 +234,7 @@ class SchemeRuns {
     const auto& stream = made(stream_);
     if (kernel == ProvedKernel::kRowStream) stream.whole(depth, visit);
     if (kernel == ProvedKernel::kRowStreamEdge) stream.sides(depth, visit);
-    if constexpr (Scheme::kQuads)
-      if (kernel == ProvedKernel::kRowStreamPatch) stream.patch(depth, visit);
+    if (kernel == ProvedKernel::kRowStreamPatch) stream.patch(depth, visit);
   }
 
  private:

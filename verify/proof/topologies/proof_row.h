@@ -12,14 +12,14 @@
 
 namespace limitcheck::verify {
 
-/// What is proved: of pairs of triangles all but the last, of quads all but the centres of fans.
+/// What is proved of pairs of triangles, and of quads, which have no centres of fans.
 enum class ProvedKernel : std::uint8_t {
   kSlidingWindow,
   kCrackEdge,
   kCrackCentre,
   kRowStream,
   kRowStreamEdge,
-  kRowStreamPatch  ///< of regular quads
+  kRowStreamPatch  ///< of regular quads and pairs
 };
 inline constexpr std::array kProvedKernels{ProvedKernel::kSlidingWindow, ProvedKernel::kCrackEdge,
                                            ProvedKernel::kCrackCentre,   ProvedKernel::kRowStream,

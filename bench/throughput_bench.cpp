@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Row streaming and all other routes in one run; compare the ratios of the last lines. --scheme loop (the
 // default) or catmull-clark; --gl: by OpenGL, too, on its device. Names:
-// route/steady|scratch/shape/faces:N/depth:M/threads:T, where the shape is bumpy or, of quads, quads,
-// half-regular or regular. Counters: points/s distinct limit points, written/s bytes of evaluated points, 24
+// route/steady|scratch/shape/faces:N/depth:M/threads:T, where the shape is bumpy, split (nine of ten pairs of faces with
+// regular corners) or torus (all) or, of quads, quads, half-regular or regular. Counters: points/s distinct limit points, written/s bytes of evaluated points, 24
 // each; peak: bytes by which the process grows in one run from scratch, the control mesh not counted.
 #include <benchmark/benchmark.h>
 #include <hwy/aligned_allocator.h>
@@ -217,9 +217,13 @@ void add(const std::string& name, Function function, bool on_a_device = false) {
     one->UseRealTime();
 }
 
+bool of_triangles(const Shape& shape) {
+  return shape.name == "bumpy" || shape.name == "split" || shape.name == "torus";
+}
+
 /// Cases that would take more than some seconds or a few gigabytes are left out.
 bool affordable(const Route& route, const Shape& shape, int depth, bool scratch) {
-  const double points = shape.faces * std::ldexp(1., 2 * depth) / (shape.name == "bumpy" ? 2 : 1);
+  const double points = shape.faces * std::ldexp(1., 2 * depth) / (of_triangles(shape) ? 2 : 1);
   return points * route.bytes_per_point < 4e9 &&
          points * route.nanoseconds_per_point < (scratch ? 4e9 : 2e9) * (shape.faces < 5000 ? 2 : 1);
 }
@@ -295,6 +299,7 @@ int main(int argc, char** argv) {
   if (triangles) {
     shapes.clear();
     for (const int faces : {200, 1000, 4000, 100'000, 1'000'000}) shapes.push_back({"bumpy", faces});
+    shapes.push_back({"split", 4000}), shapes.push_back({"torus", 4000});
   }
   for (const Route& route : routes) add_route(route, shapes, threads);
   for (const Shape& shape : shapes) {

@@ -12,6 +12,7 @@
 
 #include "data/generators/bumpy_sphere.h"
 #include "data/generators/polygon_meshes.h"
+#include "data/shapes.h"
 
 namespace limitcheck::bench {
 
@@ -46,8 +47,23 @@ data::ControlMesh quads_of(const data::ControlMesh& mesh) {
   return out;
 }
 
+/// Four triangles for each, by the middles of its sides.
+data::ControlMesh split(const data::ControlMesh& mesh) {
+  const data::ControlMesh quads = quads_of(mesh);
+  data::ControlMesh out{quads.positions, {}};
+  for (std::size_t f = 0; f < quads.faces.size(); f += 3) {
+    const std::int32_t middle[] = {quads.faces[f][1], quads.faces[f + 1][1], quads.faces[f + 2][1]};
+    for (std::size_t k = 0; k < 3; ++k)
+      out.faces.push_back({quads.faces[f + k][0], middle[k], middle[(k + 2) % 3]});
+    out.faces.push_back({middle[0], middle[1], middle[2]});
+  }
+  return out;
+}
+
 data::ControlMesh make_mesh(const Shape& shape) {
   if (shape.name == "bumpy") return data::bumpy_sphere(shape.faces, 1);
+  if (shape.name == "torus") return data::torus(50, shape.faces / 100);
+  if (shape.name == "split") return split(split(data::bumpy_sphere(shape.faces / 16, 1)));
   if (shape.name == "regular") return data::quad_torus(shape.faces / 50, 50);
   if (shape.name == "half-regular") return quads_of(quads_of(data::bumpy_sphere(shape.faces / 12, 1)));
   return quads_of(data::bumpy_sphere(shape.faces / 3, 1));

@@ -217,10 +217,12 @@ std::vector<Tracked> tracked_cases() {
               return way == Way::kCounted ? pawn(way) : mesh_of({"quads", 1002});
             }},
       regular{"regular/", kQuads, by_faces("regular", 200, 1000)},
+      torus{"torus/", kLoop, by_faces("torus", 200, 1000)},
       polygons{"n-gons/", kQuads, [](Way way) { return data::mixed_pawn(way == Way::kCounted ? 8 : 24); }},
       semi_sharp{"semi-sharp/", kQuads, [](Way) { return data::crease_ring(2, 5); }};
 
   add_kernels(list, our_routes(), "", "bumpy", triangles.mesh, 1000, true);
+  add_kernels(list, our_routes(), "torus/", "torus", torus.mesh, 1000, false);
   add_kernels(list, our_quad_routes(), "quads/", "quads", pawn, 1002, true);
   add_kernels(list, our_quad_routes(), "regular/", "regular", regular.mesh, 1000, false);
   for (const Route& route : our_quad_routes()) {
@@ -236,7 +238,7 @@ std::vector<Tracked> tracked_cases() {
   for (const Subject* subject : {&polygons, &semi_sharp})
     add_frames<fast::PatchMesh<float>>(list, *subject, "patches");
   for (const rs::Kernel& kernel : rs::kernels())
-    for (const Subject* subject : {&triangles, &quads, &regular})
+    for (const Subject* subject : {&triangles, &torus, &quads, &regular})
       add_frames<fast::DrawList<float>>(list, *subject, std::string(kernel.name) + "/random-depths", &kernel);
 
   const Subject small{"", kLoop, by_faces("bumpy", 200, 200)},

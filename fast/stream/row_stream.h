@@ -77,10 +77,11 @@ struct RowView {
   int j;
   RowBuffer rows;
   std::size_t grids = 0;                 // of the batch, one in each lane
-  const std::uint32_t* index = nullptr;  // lane k has number index[k] of the caller's list
+  std::size_t first = 0;                 // lane k has number first + k of the caller's list
+  const std::uint32_t* index = nullptr;  // or, if this is not null, number index[k]
 
   std::size_t size() const { return grids; }
-  std::size_t number(std::size_t lane) const { return index[lane]; }
+  std::size_t number(std::size_t lane) const { return index != nullptr ? index[lane] : first + lane; }
   /// The side(depth) vertices of the grid in a lane,
   const Vertex* vertices(std::size_t lane) const { return rows.row(lane, j); }
   /// and those of the row before, j > 0, if two are kept.
@@ -186,8 +187,8 @@ class RowStream : public BasicRowStream<LoopStreams> {
 
   /// The depth from which some part of a grid has an origin of its own, see Part.
   int local_from(const Grid& grid) const { return row_stream::local_from(rings_.local(), grid); }
-  /// The grids in an order in which pairs with regular corners come first, and then those of the same local_from() follow
-  /// each other, which makes the best batches. Any order is right.
+  /// The grids in an order in which those of the same local_from() follow each other, and among them those of the same
+  /// regularity_rank(), which makes the best batches. Any order is right.
   std::vector<Grid> sorted(std::span<const Grid> grids) const;
 };
 

@@ -51,13 +51,22 @@ struct GridEdges {
   std::array<std::int32_t, kInside> of;
 };
 
-/// Whether a grid is a pair of triangles with regular corners, see kPolynomialFrom.
+/// Which edges of a grid are regular, see regular_offset(): bit k for Part k from A on.
 template <class N>
-bool is_regular(const BasicLoopRings<N>& rings, const Grid& grid) {
-  if (grid.singleton()) return false;
-  const std::int32_t ac = 3 * grid.face0 + grid.edge0, ca = 3 * grid.face1 + grid.edge1;
-  return rings.corner(ac).regular != 0 && rings.corner(Adjacency::next(ac)).regular != 0 &&
-         rings.corner(Adjacency::prev(ac)).regular != 0 && rings.corner(Adjacency::prev(ca)).regular != 0;
+unsigned regular_edges(const BasicLoopRings<N>& rings, const Grid& grid) {
+  const std::int32_t ac = 3 * grid.face0 + std::max(grid.edge0, 0), ca = 3 * grid.face1 + grid.edge1;
+  const auto bit = [&](std::int32_t h, Part edge) { return rings.is_regular(h) ? 1U << edge : 0U; };
+  unsigned edges = bit(Adjacency::next(ac), kCD) | bit(Adjacency::prev(ac), kDA) | bit(ac, kAC);
+  if (!grid.singleton()) edges |= bit(Adjacency::next(ca), kAB) | bit(Adjacency::prev(ca), kBC);
+  return edges;
+}
+inline constexpr unsigned kAllEdges = (1U << kInside) - 1;
+
+/// Grids that go together best have the same rank: first regular ones, then those without a regular edge. More ranks would
+/// make purer batches of grids that lie farther apart in memory.
+inline constexpr std::size_t kRegularityRanks = 3;
+inline std::size_t regularity_rank(unsigned regular) {
+  return regular == kAllEdges ? 0 : regular == 0 ? 1 : 2;
 }
 
 /// The depth from which some part of a grid has an origin of its own.
@@ -74,26 +83,21 @@ struct Corners {
   int first;
 };
 
-// Corner blocks, with windows of `width` entries. Returns in which lanes the corner is regular: bit k for lane k.
+// Corner blocks, with windows of `width` entries.
 template <class N>
-unsigned put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int width, int depth, int lanes,
-                     typename N::Scalar* out) {
+void put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int width, int depth, int lanes,
+                 typename N::Scalar* out) {
   using T = typename N::Scalar;
   const T *head[kMaxLanes] = {}, *window[kMaxLanes] = {};
   const int first = corners.first - depth;
-  unsigned regular = 0;
   for (int lane = 0; lane < lanes; ++lane) {
     const auto& at = rings.corner(corners.half_edge[lane]);
     head[lane] = rings.numbers() + 3 * static_cast<std::ptrdiff_t>(at.head);
     window[lane] = rings.numbers() + 3 * (static_cast<std::ptrdiff_t>(at.entry) + first);
-    regular |= static_cast<unsigned>(at.regular) << lane;
   }
   to_lanes<T>(head, CornerBlock::kWindow, lanes, out);
   out += CornerBlock::kWindow * lanes;
-  if (rings.reaches(depth)) {
-    to_lanes<T>(window, 3 * width, lanes, out);
-    return regular;
-  }
+  if (rings.reaches(depth)) return to_lanes<T>(window, 3 * width, lanes, out);
   const Adjacency& adjacency = rings.adjacency();
   for (int lane = 0; lane < lanes; ++lane) {  // round a closed ring, often more than once
     const std::int32_t v = adjacency.origin(corners.half_edge[lane]);
@@ -103,7 +107,6 @@ unsigned put_corners(const BasicLoopRings<N>& rings, const Corners& corners, int
       out[k * lanes + lane] =
           adjacency.on_boundary(v) ? window[lane][k] : ring[3 * ((start + k / 3) % n) + k % 3];
   }
-  return regular;
 }
 
 // Where a singleton without neighbour has no fourth corner: the ghost across its diagonal, and nothing around
@@ -135,19 +138,24 @@ bool put_parts(const LocalOrigins& local, int depth, int lanes, int count, T* ou
   return some;
 }
 
-// Tells the kernel in which lanes an edge is between regular vertices.
+// Tells the kernel which of its edges are regular, and where these are so in some lanes alone, in which: of each lane's
+// edges bit `from[k]` is of edge k.
 template <class T>
-void put_regular(unsigned regular, int edge, int lanes, T* out, BatchPlacement<T>& placement) {
-  if (regular == 0) return;
-  const unsigned every = (1U << lanes) - 1;
-  placement.some_regular |= 1U << edge, placement.all_regular |= (regular == every ? 1U : 0U) << edge;
-  for (int lane = 0; lane < lanes; ++lane)
-    out[edge * lanes + lane] = T(static_cast<int>(regular >> lane & 1));
+void put_regular(const unsigned* edges, std::span<const int> from, int lanes, T* out,
+                 BatchPlacement<T>& placement) {
+  unsigned some = 0, all = ~0U;
+  for (int lane = 0; lane < lanes; ++lane) some |= edges[lane], all &= edges[lane];
+  for (std::size_t k = 0; k < from.size() && some != 0; ++k) {
+    if ((some >> from[k] & 1) == 0) continue;
+    placement.some_regular |= 1U << k, placement.all_regular |= (all >> from[k] & 1) << k;
+    for (int lane = 0; lane < lanes; ++lane)
+      out[k * static_cast<std::size_t>(lanes) + lane] = T(static_cast<int>(edges[lane] >> from[k] & 1));
+  }
 }
 
 }  // namespace detail
 
-/// Whether edges between regular vertices are to be polynomials, from kPolynomialFrom on.
+/// Whether regular edges are to be polynomials, from kLocalFrom on.
 enum class Edges : std::uint8_t { kAllStreamed, kRegularByPolynomials };
 
 /// Fills input_size(depth) * lanes numbers, aligned to 64 bytes for the vector kernels, from 1 to `lanes`
@@ -176,9 +184,8 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
   const auto block = [&](int corner) {
     return input + (corner ^ static_cast<int>(order)) * corner_block_size(depth) * lanes;
   };
-  std::array<unsigned, 4> regular{};
   for (const int k : {kA, kB, kC, kD})
-    regular[k] = detail::put_corners(rings, corners[k], window_width(k, depth), depth, lanes, block(k));
+    detail::put_corners(rings, corners[k], window_width(k, depth), depth, lanes, block(k));
   for (int lane = 0; lane < lanes; ++lane) {
     if (ghost[lane])
       detail::put_ghost(rings, corners[kA].half_edge[lane], kB, depth, lanes, block(kB) + lane);
@@ -195,16 +202,17 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
       rings.placement(), detail::put_parts(
                              local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
                              [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
-  for (int edge = 0; edge < kInside && edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom;
-       ++edge) {
-    const auto at = [&](int corner) { return regular[corner ^ static_cast<int>(order)]; };
-    detail::put_regular(at(kEdgeEnds[edge].p) & at(kEdgeEnds[edge].q), edge, lanes,
+  if (edges == Edges::kRegularByPolynomials && depth >= kLocalFrom) {
+    constexpr int from_a[] = {kAB, kBC, kCD, kDA, kAC}, from_c[] = {kCD, kDA, kAB, kBC, kAC};
+    unsigned regular[kMaxLanes];
+    for (int lane = 0; lane < lanes; ++lane) regular[lane] = regular_edges(rings, grid_of(lane));
+    detail::put_regular(regular, order == Order::kFromA ? from_a : from_c, lanes,
                         input + regular_offset(depth) * lanes, placement);
   }
   return placement;
 }
 
-/// The same for a TrianglePatch, whatever the depth: of grids that are regular.
+/// The same for a TrianglePatch, whatever the depth: of regular grids.
 template <class N>
 BatchPlacement<typename N::Scalar> gather_regular(const BasicLoopRings<N>& rings, std::span<const Grid> grids,
                                                   int lanes, typename N::Scalar* input,
@@ -226,16 +234,19 @@ BatchPlacement<typename N::Scalar> gather_edges(const BasicLoopRings<N>& rings,
   for (int lane = 0; lane < lanes; ++lane)
     p.half_edge[lane] = half_edge(lane), q.half_edge[lane] = Adjacency::next(half_edge(lane));
   const int width = edge_window_width(depth);
-  const unsigned at_p = detail::put_corners(rings, p, width, depth, lanes, input),
-                 at_q = detail::put_corners(rings, q, width, depth, lanes,
-                                            input + edge_block_size(depth) * lanes);
+  detail::put_corners(rings, p, width, depth, lanes, input);
+  detail::put_corners(rings, q, width, depth, lanes, input + edge_block_size(depth) * lanes);
   const auto from = [&](int lane) { return rings.local().template of_edge<3>(half_edge(lane)); };
   typename N::Scalar* const flags = input + edge_part_offset(depth) * lanes;
   BatchPlacement<typename N::Scalar> placement{
       rings.placement(), detail::put_parts(rings.local(), depth, lanes, 1, flags, from,
                                            [&](int lane, int) { return depth >= from(lane); })};
-  if (edges == Edges::kRegularByPolynomials && depth >= kPolynomialFrom)
-    detail::put_regular(at_p & at_q, 0, lanes, flags + lanes, placement);
+  if (edges == Edges::kRegularByPolynomials && depth >= kLocalFrom) {
+    constexpr int itself[] = {0};
+    unsigned regular[kMaxLanes];
+    for (int lane = 0; lane < lanes; ++lane) regular[lane] = rings.is_regular(half_edge(lane)) ? 1 : 0;
+    detail::put_regular(regular, itself, lanes, flags + lanes, placement);
+  }
   return placement;
 }
 

@@ -153,12 +153,13 @@ class BasicLoopRings {
   static constexpr bool reaches(int depth) { return depth + 3 <= kReach; }
 
   /// How a grid finds one of its corners, by the half-edge that leaves there, in points: its head, and the
-  /// entry of its ring to which the half-edge leads; and whether it is regular, see kPolynomialFrom.
+  /// entry of its ring to which the half-edge leads.
   struct Corner {
-    std::int32_t head;
-    std::uint32_t entry : 31, regular : 1;
+    std::int32_t head, entry;
   };
   const Corner& corner(std::int32_t h) const { return corners_[h]; }
+  /// Whether an edge is regular, see regular_offset().
+  bool is_regular(std::int32_t h) const { return regular_[h] != 0; }
 
   const Placement<T>& placement() const { return placement_; }
   const LocalOrigins& local() const { return local_; }
@@ -174,6 +175,7 @@ class BasicLoopRings {
   };
 
   void lay_out();
+  void find_regular_edges();
   void make_vertex(std::int32_t v, VertexKind kind, Scratch& scratch);
   static void continue_ring(const Vec3<Wide>& v, bool held, std::span<const Vec3<Wide>> r, T* to,
                             Scratch& scratch);
@@ -184,8 +186,9 @@ class BasicLoopRings {
   const Adjacency* adjacency_;
   VertexKinds kinds_;
   std::vector<T> numbers_;
-  std::vector<std::int32_t> heads_;  // per vertex, in points
-  std::vector<Corner> corners_;      // per half-edge
+  std::vector<std::int32_t> heads_;    // per vertex, in points
+  std::vector<Corner> corners_;        // per half-edge
+  std::vector<std::uint8_t> regular_;  // per half-edge
   Placement<T> placement_;
   LocalOrigins local_;
   RingWeightTable<Weight> weights_;

@@ -46,6 +46,7 @@ template <class N>
 BasicLoopRings<N>::BasicLoopRings(const Adjacency& adjacency, PlacedPoints<T> points, VertexKinds kinds)
     : adjacency_(&adjacency), kinds_(kinds), weights_(adjacency.max_valence()) {
   lay_out();
+  find_regular_edges();
   move_points(std::move(points));
 }
 
@@ -90,6 +91,27 @@ void BasicLoopRings<N>::lay_out() {
 }
 
 template <class N>
+void BasicLoopRings<N>::find_regular_edges() {
+  const Adjacency& adjacency = *adjacency_;
+  const auto faces = static_cast<std::int32_t>(adjacency.face_count());
+  std::vector<std::uint8_t> whole(static_cast<std::size_t>(faces));  // the three corners
+  for (std::int32_t f = 0; f < faces; ++f) {
+    bool regular = true;
+    for (const std::int32_t h : {3 * f, 3 * f + 1, 3 * f + 2}) {
+      const std::int32_t v = adjacency.origin(h);
+      regular = regular && adjacency.valence(v) == 6 && !adjacency.on_boundary(v) &&
+                kinds_[v] == VertexKind::kPlain;
+    }
+    whole[f] = regular ? 1 : 0;
+  }
+  regular_.resize(3 * whole.size());
+  for (std::int32_t h = 0; h < 3 * faces; ++h) {
+    const std::int32_t twin = adjacency.twin(h);
+    regular_[h] = twin >= 0 ? whole[Adjacency::face(h)] & whole[Adjacency::face(twin)] : 0;
+  }
+}
+
+template <class N>
 void BasicLoopRings<N>::make_vertex(std::int32_t v, VertexKind kind, Scratch& scratch) {
   const Adjacency& adjacency = *adjacency_;
   // Neighbours counter-clockwise from the canonical one on. A closed ring is read past its end.
@@ -118,12 +140,8 @@ void BasicLoopRings<N>::make_vertex(std::int32_t v, VertexKind kind, Scratch& sc
   const std::span<const Vec3<Wide>> around(points + start, n);
 
   const std::int32_t first = heads_[v] + kHeadPoints + (open ? kOpenReach : kReach);
-  const bool regular = !open && n == 6 && kind == VertexKind::kPlain;
-  for (std::size_t k = 0; k < faces; ++k) {
-    const auto entry =
-        static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(k < start ? k + n - start : k - start);
-    corners_[fan[k]] = {heads_[v], entry & 0x7fffffffU, regular ? 1U : 0U};
-  }
+  for (std::size_t k = 0; k < faces; ++k)
+    corners_[fan[k]] = {heads_[v], first + static_cast<std::int32_t>(k < start ? k + n - start : k - start)};
   // Four numbers for three, of which the next point overwrites the last.
   T* const ring = numbers_.data() + 3 * static_cast<std::size_t>(first);
   const int before = open ? 0 : kReach, size = static_cast<int>(n);

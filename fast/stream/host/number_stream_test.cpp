@@ -260,13 +260,13 @@ struct Tangents {
 
 // Regular edges and pairs as polynomials against the steps of subdivision, beside irregular ones and alone.
 TEST(NumberStream, ByPolynomialsIsTheSameSurfaceExactly) {
-  const auto mesh = shaken(grid_sheet(4, 4), .1, 4);  // regular inside
+  const auto mesh = shaken(grid_sheet(6, 6), .1, 4);  // regular inside
   const Adjacency adjacency(mesh);
   const auto points = exactly(mesh);
   const NumberStream<LinearNumber<Rational, 0>> first(adjacency, points);
   const NumberStream<LinearNumber<Rational, 1>> second(adjacency, points);
   int patches = 0, edges = 0, others = 0;
-  for (const int depth : {2, 3, 5}) {
+  for (const int depth : {4, 5}) {
     const std::size_t n = (std::size_t{1} << depth) + 1;
     const auto evaluated = [&](std::size_t count, const auto& run) {
       Tangents both{std::vector<Rational>(6 * count), std::vector<Rational>(6 * count)};
@@ -274,7 +274,7 @@ TEST(NumberStream, ByPolynomialsIsTheSameSurfaceExactly) {
       return both;
     };
     auto grids = grids_of(adjacency, depth);
-    if (depth == 5) grids.erase(grids.begin() + 3, grids.end());
+    if (depth == 5) grids.resize(grids.size() / 8);
     for (const Grid& grid : grids) {
       const auto streamed = evaluated(n * n, [&](const auto& s, Rational* out) {
         s.whole({&grid, 1}, depth, out);
@@ -286,7 +286,7 @@ TEST(NumberStream, ByPolynomialsIsTheSameSurfaceExactly) {
         EXPECT_TRUE((grid.singleton() && k % n > k / n) || with_edges.agrees(k, streamed, k))
             << depth << " " << k;
       edges += with_edges.second == streamed.second ? 0 : 1;
-      if (!is_regular(first.rings(), grid)) {
+      if (!(regular_edges(first.rings(), grid) == kAllEdges)) {
         ++others;
         continue;
       }

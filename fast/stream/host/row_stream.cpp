@@ -57,11 +57,12 @@ template <class T>
 struct Batch {
   QuadClass kind;
   std::span<const T> items;
-  const std::uint32_t* index;
+  std::size_t first;
+  const std::uint32_t* index = nullptr;
 
   bool alone() const { return kind == QuadClass::kSemiSharp; }
   bool regular() const { return kind == QuadClass::kRegular; }
-  std::size_t number(std::size_t lane) const { return index[lane]; }
+  std::size_t number(std::size_t lane) const { return index != nullptr ? index[lane] : first + lane; }
 };
 
 // One for each lane; those beyond the last item repeat it.
@@ -95,7 +96,8 @@ struct CallOf {
   float* work() const { return workspace.work.data(); }
   void grow(int input_size, int work_size) const { workspace.grow(input_size, work_size, kernel.lanes); }
 
-  // body(batch) for items or half-edges of one class; those that something alone touches come one by one.
+  // body(batch) for items or half-edges of one class; those that something alone touches come one by one. What fills the
+  // lanes and lies side by side stays where it is.
   template <class T, class KindOf, class Body>
   void by_class(std::span<const T> list, const KindOf& kind_of, const Body& body) const {
     struct Queue {
@@ -104,17 +106,25 @@ struct CallOf {
       std::size_t count = 0;
     };
     std::array<Queue, 4> queues;
+    const auto lanes = static_cast<std::size_t>(kernel.lanes);
     const auto empty = [&](QuadClass kind, Queue& queue) {
-      body(Batch<T>{kind, {queue.items.data(), queue.count}, queue.index.data()});
+      body(Batch<T>{kind, {queue.items.data(), queue.count}, 0, queue.index.data()});
       queue.count = 0;
     };
-    for (std::size_t i = 0; i < list.size(); ++i) {
+    for (std::size_t i = 0, end = 0; i < list.size(); i = end) {
       const QuadClass kind = kind_of(list[i]);
+      const std::size_t most = kind == QuadClass::kSemiSharp ? 1 : lanes;
+      for (end = i + 1; end < list.size() && end - i < most && kind_of(list[end]) == kind;) ++end;
+      if (end - i == most) {
+        body(Batch<T>{kind, list.subspan(i, most), i});
+        continue;
+      }
       Queue& queue = queues[static_cast<std::size_t>(kind)];
-      queue.items[queue.count] = list[i];
-      queue.index[queue.count++] = static_cast<std::uint32_t>(i);
-      if (queue.count == static_cast<std::size_t>(kind == QuadClass::kSemiSharp ? 1 : kernel.lanes))
-        empty(kind, queue);
+      for (; i < end; ++i) {
+        queue.items[queue.count] = list[i];
+        queue.index[queue.count++] = static_cast<std::uint32_t>(i);
+        if (queue.count == lanes) empty(kind, queue);
+      }
     }
     for (const QuadClass kind : {QuadClass::kRegular, QuadClass::kClosed, QuadClass::kOpen})
       if (Queue& queue = queues[static_cast<std::size_t>(kind)]; queue.count > 0) empty(kind, queue);
@@ -133,8 +143,8 @@ struct Call<LoopStreams> : CallOf<LoopStreams> {
   bool has_polynomials() const { return kernel.run_patches != nullptr; }
   QuadClass kind_of(const Grid& grid) const {
     if (touched != nullptr && touched->touches(grid)) return QuadClass::kSemiSharp;
-    return has_polynomials() && depth >= kPolynomialFrom && is_regular(rings, grid) ? QuadClass::kRegular
-                                                                                    : QuadClass::kOpen;
+    const bool regular = has_polynomials() && depth >= kLocalFrom && regular_edges(rings, grid) == kAllEdges;
+    return regular ? QuadClass::kRegular : QuadClass::kOpen;
   }
   QuadClass kind_of_edge(std::int32_t h) const {
     return touched != nullptr && touched->touches(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
@@ -223,7 +233,7 @@ class Rows {
   /// For a batch.
   template <class Items>
   QuadTarget<float> target(const Items& batch) {
-    view_.grids = batch.items.size(), view_.index = batch.index;
+    view_.grids = batch.items.size(), view_.first = batch.first, view_.index = batch.index;
     return {lane_.data(), view_.rows.stride, visit_ != nullptr ? &row : nullptr, this, view_.rows.mask};
   }
 
@@ -393,7 +403,9 @@ void QuadRowStream::move_points(const QuadMesh& mesh) {
 
 std::vector<Grid> RowStream::sorted(std::span<const Grid> grids) const {
   std::vector<Grid> all(grids.begin(), grids.end());
-  const auto key = [&](const Grid& grid) { return std::pair(!is_regular(rings_, grid), local_from(grid)); };
+  const auto key = [&](const Grid& grid) {
+    return std::pair(local_from(grid), regularity_rank(regular_edges(rings_, grid)));
+  };
   std::stable_sort(all.begin(), all.end(), [&](const Grid& a, const Grid& b) { return key(a) < key(b); });
   return all;
 }

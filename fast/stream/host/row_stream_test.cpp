@@ -162,7 +162,7 @@ TEST(RowStreamTargets, GiveTheBitsOfThePlainKernelWithOriginsOfTheirOwn) {
   BatchPlacement<float> placement{{{.1f, -.2f, .3f}, 1.5f}, true};
   for (const Kernel& kernel : kernels()) {
     for (int depth = 1; depth <= 5; ++depth) {
-      placement.some_regular = depth < kPolynomialFrom ? 0 : static_cast<unsigned>(random.next() % 32);
+      placement.some_regular = depth < kLocalFrom ? 0 : static_cast<unsigned>(random.next() % 32);
       placement.all_regular = placement.some_regular & static_cast<unsigned>(random.next());
       const int lanes = kernel.lanes, count = input_size(depth), numbers = 6 * side(depth) * side(depth);
       AlignedFloats input, one, work, got, want;

@@ -162,12 +162,11 @@ struct LoopStreamFrames final
 
   template <class Skipped>
   void make_batches(std::size_t first, std::size_t last, Skipped&& skipped) {
-    const auto rank = [&](std::size_t i) -> std::size_t {
-      if (patches[i].depth >= kPolynomialFrom && is_regular(stream.rings(), pairing.grids[i])) return 0;
-      return !stream.rings().local().none(patches[i].depth) &&
-                     patches[i].depth >= stream.local_from(pairing.grids[i])
-                 ? 2
-                 : 1;
+    const auto rank = [&](std::size_t i) {
+      const int depth = patches[i].depth;
+      const bool local = !stream.rings().local().none(depth) && depth >= stream.local_from(pairing.grids[i]);
+      const unsigned regular = depth >= kLocalFrom ? regular_edges(stream.rings(), pairing.grids[i]) : 0;
+      return 2 * regularity_rank(regular) + (local ? 1 : 0);
     };
     sorted.sort(patches, first, last, skipped, rank, static_cast<std::size_t>(stream.kernel().lanes),
                 static_cast<std::size_t>(few_lanes.lanes), placed, batches);

@@ -43,7 +43,7 @@ class SortedPatches {
  public:
   /// Of patches first .. last - 1 but those skipped: batches of at most `lanes`, or `few` of those delivered whole. In a
   /// fixed order.
-  ///   rank     of a patch, 0 to 2: patches of one rank, which go together best, follow each other at each depth
+  ///   rank     of a patch, below kRanks: patches of one rank, which go together best, follow each other at each depth
   ///   placed   patches of two displayed faces have a place each, where the rows lie as they come from C
   template <class Skipped, class Rank>
   void sort(std::span<const LoopPatch> patches, std::size_t first, std::size_t last, Skipped&& skipped,
@@ -87,7 +87,8 @@ class SortedPatches {
   }
 
   std::array<std::vector<std::size_t>, kDeliveries*(kMaxDepth + 1)> lists_;
-  std::array<std::vector<std::size_t>, 3> ranked_;
+  static constexpr std::size_t kRanks = 2 * kRegularityRanks;
+  std::array<std::vector<std::size_t>, kRanks> ranked_;
 };
 
 /// The border points of a batch's repaired faces: edges of one depth go together, one in each lane.

@@ -74,14 +74,14 @@ constexpr int parts_offset(int depth) {
   return 4 * corner_block_size(depth);
 }
 
-/// From this depth on the points of an edge between two regular vertices, which are interior and have six faces each,
-/// come from the polynomials that the surface is along it; and a pair of triangles with four regular corners, two
-/// polynomials, from these.
-inline constexpr int kPolynomialFrom = 2;
-/// The input of such pairs is, whatever their depth, that of batches of this one, whose windows hold a regular ring.
+/// An edge is regular if the four vertices of its two triangles are interior and have six triangles each, a grid if its five
+/// edges are. From kLocalFrom on the points of a regular edge come from the polynomials that the surface is along it, and
+/// those inside a regular grid from the two that it is there. (The two ends would do for an edge: but then the many edges
+/// of an irregular mesh that have such ends would lie in batches of others, which have to evaluate both.)
+/// The input of regular grids is, whatever their depth, that of batches of this one, whose windows hold a regular ring.
 inline constexpr int kPatchWindow = 1;
 
-/// Of each edge of a grid, by Part, 1 in the lanes in which it is between regular vertices.
+/// Of each edge of a grid, by Part, 1 in the lanes in which it is regular; read where only some are.
 constexpr int regular_offset(int depth) {
   return parts_offset(depth) + kParts;
 }
@@ -108,7 +108,7 @@ constexpr int rows_offset(int level) {
 constexpr int kBorderSize = 9;  // centre, first and last core entry
 
 /// Likewise for a control edge: two corner blocks, whose windows have the edge in the middle of a core of
-/// three; then whether it has an origin of its own, and whether its ends are regular.
+/// three; then whether it has an origin of its own, and whether it is regular.
 constexpr int edge_window_width(int depth) {
   return 3 + 2 * depth;
 }
@@ -125,7 +125,7 @@ constexpr int edge_output_size(int depth) {
   return 6 * ((1 << depth) + 1);  // NOLINT(clang-analyzer-core.UndefinedBinaryOperatorResult): 0..10
 }
 /// Where an edge has its ends: their corner blocks, and where in their windows those of the edge begin; the lanes in which
-/// it has an origin of its own, and in which it is between regular vertices: in some of them, in all.
+/// it has an origin of its own, and in which it is regular: in some of them, in all.
 template <class T>
 struct EdgeInput {
   const T* p;
@@ -156,7 +156,7 @@ constexpr int work_size(int depth) {
 }
 
 /// The coordinates of a batch of grids or edges, and whether some part of it has an origin of its own; and the edges, by
-/// Part, that are polynomials in some lane, and in all.
+/// Part, that are to be polynomials in some lane, and in all.
 template <class T>
 struct BatchPlacement : Placement<T> {
   bool local = false;

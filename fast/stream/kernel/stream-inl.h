@@ -190,13 +190,10 @@ class Stream {
 
   HWY_ATTR void run() {
     for (int c = 0; c < 3; ++c) centre_[c] = N::splat(placement_.centre[c]);
-    keep_edges();
     V moved[3];
     const V* origin = nullptr;
     if (placement_.local) {
-      choose_origin<N>(own(kInside), corner_block(kA) + CornerBlock::kCentre * L,
-                       corner_block(kC) + CornerBlock::kCentre * L, moved);
-      for (int c = 0; c < 3; ++c) centre_[c] = N::fma(moved[c], N::splat(placement_.unit), centre_[c]);
+      move_origin(moved);
       origin = moved;
     }
     with_known<N>(depth_, [&](auto known) HWY_ATTR {
@@ -213,7 +210,6 @@ class Stream {
     return strips_ + ((edge - kBC) * edge_output_size(depth_) + 6 * point) * L;
   }
 
-  bool kept(Part edge) const { return placement_.local || (placement_.some_regular >> edge & 1) != 0; }
   EdgeInput<Scalar> input_of(Part edge) const {
     const EdgeEnds& at = kEdgeEnds[edge];
     return {corner_block(at.p),
@@ -226,15 +222,15 @@ class Stream {
             (placement_.all_regular >> edge & 1) != 0};
   }
 
-  // The grid's edges before its inside, if they are strips from origins of their own or polynomials: A B is row 0, the
-  // others are kept until their rows come.
-  HWY_ATTR void keep_edges() {
-    if (kept(kAB)) {
-      edge_.scatter(input_of(kAB), target_.row(0));
-      target_.done(0);
-    }
-    for (const Part edge : {kBC, kCD, kDA, kAC})
-      if (kept(edge)) edge_.points(input_of(edge), strip(edge, 0));
+  // The grid's edges before its inside, each from an origin of its own: A B is row 0, the others are kept until their rows
+  // come. Then the grid has an origin on its diagonal.
+  HWY_ATTR void move_origin(V* origin) {
+    edge_.scatter(input_of(kAB), target_.row(0));
+    target_.done(0);
+    for (const Part edge : {kBC, kCD, kDA, kAC}) edge_.points(input_of(edge), strip(edge, 0));
+    choose_origin<N>(own(kInside), corner_block(kA) + CornerBlock::kCentre * L,
+                     corner_block(kC) + CornerBlock::kCentre * L, origin);
+    for (int c = 0; c < 3; ++c) centre_[c] = N::fma(origin[c], N::splat(placement_.unit), centre_[c]);
   }
 
   // One corner through all levels; what the rows of each level take from it is kept. origin: null if it is not moved.
@@ -299,32 +295,28 @@ class Stream {
 
   HWY_ATTR void limit(const Scalar* s, const Scalar* m, const Scalar* n, int j) {
     const int size = 1 << depth_;
-    const bool border = j == 0 || j == size;
-    if (j == 0 && kept(kAB)) return;
+    const bool local = placement_.local, border = j == 0 || j == size;
+    if (local && j == 0) return;
     const auto to = target_.row(j);
-    if (j == size && kept(kCD)) {
+    if (local && j == size) {
       edge_.scatter_kept(input_of(kCD), strip(kCD, 0), to);
       return target_.done(j);
     }
     alignas(64) Scalar special[6 * L];
     const Scalar* diagonal = special;
     Vertex<N> first, last;
-    if (border) {
+    if (local) {
+      diagonal = strip(kAC, j);
+      first.load(strip(kDA, j)), first.finish();
+      last.load(strip(kBC, j)), last.finish();
+    } else if (border) {
       first.load(corner_limit(j == 0 ? kA : kD)), last.load(corner_limit(j == 0 ? kB : kC));
     } else {
       const LimitRow<N> row(s, m, n, centre_, unit_);
-      const auto side = [&](Part edge, int i, Vertex<N>& v) HWY_ATTR {
-        kept(edge) ? v.load(strip(edge, j)) : row.template along<Axis::kColumn>(i, v);
-        v.finish();
-      };
-      side(kDA, 0, first);
-      if (kept(kAC)) {
-        diagonal = strip(kAC, j);
-      } else {
-        Vertex<N> v;
-        row.template along<Axis::kDiagonal>(j, v), v.store(special);
-      }
-      side(kBC, size, last);
+      Vertex<N> v;
+      row.template along<Axis::kColumn>(0, first), first.finish();
+      row.template along<Axis::kDiagonal>(j, v), v.store(special);
+      row.template along<Axis::kColumn>(size, last), last.finish();
     }
     LimitRow<N> row(s, m, n, centre_, unit_);
     if (!border) row.give(j, diagonal);

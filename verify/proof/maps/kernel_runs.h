@@ -140,9 +140,8 @@ template <class N>
 std::vector<fast::row_stream::Edges> ways_of(const fast::row_stream::BasicLoopRings<N>& rings,
                                              std::int32_t faces, int depth) {
   using fast::row_stream::Edges;
-  for (std::int32_t h = 0; h < 3 * faces && depth >= fast::row_stream::kPolynomialFrom; ++h)
-    if (rings.corner(h).regular != 0 && rings.corner(fast::Adjacency::next(h)).regular != 0)
-      return {Edges::kAllStreamed, Edges::kRegularByPolynomials};
+  for (std::int32_t h = 0; h < 3 * faces && depth >= fast::row_stream::kLocalFrom; ++h)
+    if (rings.is_regular(h)) return {Edges::kAllStreamed, Edges::kRegularByPolynomials};
   return {Edges::kAllStreamed};
 }
 
@@ -171,7 +170,13 @@ class StreamRuns {
           visit);
   }
   /// The same pair as two polynomials: one with regular corners.
-  bool has_patch() const { return is_regular(std::get<0>(streams_).rings(), pair()); }
+  bool has_patch() const {
+    const std::int32_t faces = proved_faces(adjacency_);
+    for (std::int32_t h = 0; h < 3 * faces; ++h)
+      if (adjacency_.valence(adjacency_.origin(h)) != 6 || adjacency_.on_boundary(adjacency_.origin(h)))
+        return false;
+    return faces == 2;
+  }
   template <class Visit>
   void patch(int depth, Visit&& visit) const {
     visit_pair(

@@ -98,8 +98,9 @@ struct CallOf {
 
   // body(batch) for items or half-edges of one class; those that something alone touches come one by one. What fills the
   // lanes and lies side by side stays where it is.
+  //   alike   all are QuadClass::kOpen
   template <class T, class KindOf, class Body>
-  void by_class(std::span<const T> list, const KindOf& kind_of, const Body& body) const {
+  void by_class(std::span<const T> list, bool alike, const KindOf& kind_of, const Body& body) const {
     struct Queue {
       std::array<T, kMaxLanes> items;
       std::array<std::uint32_t, kMaxLanes> index;
@@ -112,6 +113,11 @@ struct CallOf {
       queue.count = 0;
     };
     for (std::size_t i = 0, end = 0; i < list.size(); i = end) {
+      if (alike) {
+        end = std::min(i + lanes, list.size());
+        body(Batch<T>{QuadClass::kOpen, list.subspan(i, end - i), i});
+        continue;
+      }
       const QuadClass kind = kind_of(list[i]);
       const std::size_t most = kind == QuadClass::kSemiSharp ? 1 : lanes;
       for (end = i + 1; end < list.size() && end - i < most && kind_of(list[end]) == kind;) ++end;

@@ -166,8 +166,12 @@ class BasicRowStream {
 extern template class BasicRowStream<LoopStreams>;
 extern template class BasicRowStream<QuadStreams>;
 
-/// Of triangles: 256 + 12 n bytes for a vertex of valence n (a boundary: 376 + 12 n), and 24 bytes a face, 29 where some
+/// Of triangles: 256 + 12 n bytes for a vertex of valence n (a boundary: 376 + 12 n), and 27 bytes a face, 32 where some
 /// triangle is low (see LocalOrigins).
+///
+/// Bits: each point on an edge or at a vertex comes out the same from every grid that has it, whatever the instruction set,
+/// the other grids of the call and their order. What lies inside depends on the grid alone. From depth 4 on regular edges
+/// and grids (see regular_offset()) are polynomials, whose points are the same at every depth.
 ///
 /// Grids next to a cut are evaluated one by one, by the rules of the sliding window: the kernels have ghosts
 /// beyond a border, which would give its two sides other bits.

@@ -9,11 +9,11 @@
 
 int main() {
   using namespace limitcheck::verify;
-  std::vector<Neighbourhood> pairs{*interior_pair({5, 7, 4, 8}), face_alone()};
+  std::vector<Neighbourhood> pairs{*interior_pair({5, 7, 4, 8}), *interior_pair({6, 6, 6, 6}), face_alone()};
   for (Neighbourhood& pair : boundary_pairs({6, 5, 6, 7})) pairs.push_back(std::move(pair));
   try {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      for (const ProofRow& row : prove_map(pairs[k], {Arithmetic::kResidues, 0, k < 2 ? 4 : 2})) {
+      for (const ProofRow& row : prove_map(pairs[k], {Arithmetic::kResidues, 0, k < 3 ? 4 : 2})) {
         if (!row.map.witness) continue;
         const MapWitness& w = *row.map.witness;
         fmt::print("{} on {}, {}: {} of control point {} is {}, not {}\n", row.kernel, row.topology, w.point,

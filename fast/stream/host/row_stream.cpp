@@ -146,10 +146,12 @@ struct Call<LoopStreams> : CallOf<LoopStreams> {
   void prepare() const { grow(input_size(checked(depth)), work_size(depth)); }
   void prepare_edges() const { grow(edge_input_size(checked(depth)), edge_work_size(depth)); }
 
-  bool has_polynomials() const { return kernel.run_patches != nullptr; }
+  bool has_polynomials() const { return kernel.run_patches != nullptr && depth >= kLocalFrom; }
+  bool alike() const { return alike_edges() && !has_polynomials(); }
+  bool alike_edges() const { return touched == nullptr; }
   QuadClass kind_of(const Grid& grid) const {
     if (touched != nullptr && touched->touches(grid)) return QuadClass::kSemiSharp;
-    const bool regular = has_polynomials() && depth >= kLocalFrom && regular_edges(rings, grid) == kAllEdges;
+    const bool regular = has_polynomials() && regular_edges(rings, grid) == kAllEdges;
     return regular ? QuadClass::kRegular : QuadClass::kOpen;
   }
   QuadClass kind_of_edge(std::int32_t h) const {
@@ -198,6 +200,8 @@ struct Call<QuadStreams> : CallOf<QuadStreams> {
   void prepare() const { grow(quad_input_size(checked(depth)), quad_work_size(depth)); }
   void prepare_edges() const { prepare(); }
 
+  static bool alike() { return false; }
+  static bool alike_edges() { return false; }
   QuadClass kind_of(std::int32_t face) const { return rings.kind(face); }
   QuadClass kind_of_edge(std::int32_t h) const {
     return rings.touches_semi_sharp(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
@@ -291,12 +295,12 @@ struct Evaluation : Call<Scheme> {
   template <class Body>
   void for_each_batch(std::span<const typename Scheme::Item> items, const Body& body) const {
     this->by_class(
-        items, [&](const auto& item) { return this->kind_of(item); }, body);
+        items, this->alike(), [&](const auto& item) { return this->kind_of(item); }, body);
   }
   template <class Body>
   void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
     this->by_class(
-        half_edges, [&](std::int32_t h) { return this->kind_of_edge(h); }, body);
+        half_edges, this->alike_edges(), [&](std::int32_t h) { return this->kind_of_edge(h); }, body);
   }
 
   AloneEvaluator<typename Scheme::Alone>& alone() {
@@ -410,7 +414,8 @@ void QuadRowStream::move_points(const QuadMesh& mesh) {
 std::vector<Grid> RowStream::sorted(std::span<const Grid> grids) const {
   std::vector<Grid> all(grids.begin(), grids.end());
   const auto key = [&](const Grid& grid) {
-    return std::pair(local_from(grid), regularity_rank(regular_edges(rings_, grid)));
+    return std::pair(local_from(grid),
+                     grid.depth < kLocalFrom ? 0 : regularity_rank(regular_edges(rings_, grid)));
   };
   std::stable_sort(all.begin(), all.end(), [&](const Grid& a, const Grid& b) { return key(a) < key(b); });
   return all;

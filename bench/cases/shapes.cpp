@@ -62,7 +62,7 @@ data::ControlMesh split(const data::ControlMesh& mesh) {
 
 data::ControlMesh make_mesh(const Shape& shape) {
   if (shape.name == "bumpy") return data::bumpy_sphere(shape.faces, 1);
-  if (shape.name == "torus") return data::torus(50, shape.faces / 100);
+  if (shape.name == "torus") return data::torus(10, shape.faces / 20);
   if (shape.name == "split") return split(split(data::bumpy_sphere(shape.faces / 16, 1)));
   if (shape.name == "regular") return data::quad_torus(shape.faces / 50, 50);
   if (shape.name == "half-regular") return quads_of(quads_of(data::bumpy_sphere(shape.faces / 12, 1)));

@@ -93,21 +93,15 @@ void BasicLoopRings<N>::lay_out() {
 template <class N>
 void BasicLoopRings<N>::find_regular_edges() {
   const Adjacency& adjacency = *adjacency_;
-  const auto faces = static_cast<std::int32_t>(adjacency.face_count());
-  std::vector<std::uint8_t> whole(static_cast<std::size_t>(faces));  // the three corners
-  for (std::int32_t f = 0; f < faces; ++f) {
-    bool regular = true;
-    for (const std::int32_t h : {3 * f, 3 * f + 1, 3 * f + 2}) {
-      const std::int32_t v = adjacency.origin(h);
-      regular = regular && adjacency.valence(v) == 6 && !adjacency.on_boundary(v) &&
-                kinds_[v] == VertexKind::kPlain;
-    }
-    whole[f] = regular ? 1 : 0;
-  }
-  regular_.resize(3 * whole.size());
-  for (std::int32_t h = 0; h < 3 * faces; ++h) {
-    const std::int32_t twin = adjacency.twin(h);
-    regular_[h] = twin >= 0 ? whole[Adjacency::face(h)] & whole[Adjacency::face(twin)] : 0;
+  std::vector<std::uint8_t> vertices(heads_.size());
+  for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
+    vertices[v] = adjacency.valence(v) == 6 && !adjacency.on_boundary(v) && kinds_[v] == VertexKind::kPlain;
+  // An edge with regular ends and, on either side, a regular apex.
+  const auto has_apex = [&](std::int32_t h) { return vertices[adjacency.origin(Adjacency::prev(h))]; };
+  regular_.resize(corners_.size());
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(corners_.size()); ++h) {
+    if (vertices[adjacency.origin(h)] == 0 || vertices[adjacency.target(h)] == 0) continue;
+    regular_[h] = has_apex(h) & has_apex(adjacency.twin(h));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -140,7 +141,7 @@ void stream_triangles(ProvedKernel kernel, const data::ControlMesh& mesh, std::s
   const std::vector<Edges> ways = ways_of(rings, twin < 0 ? 1 : 2, patch ? 0 : depth);
   AlignedFloats input, work;
   for (const Kernel& target : scalar_first(kernels())) {
-    input.grow(static_cast<std::size_t>(target.lanes * input_size(depth)));
+    input.grow(static_cast<std::size_t>(target.lanes * input_size(std::max(depth, kPatchWindow))));
     work.grow(static_cast<std::size_t>(target.lanes * work_size(depth)));
     const auto gather_pairs = [&](const std::vector<std::int32_t>& copy, Edges edges) {
       std::vector<fast::Grid> grids;

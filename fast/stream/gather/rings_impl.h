@@ -96,12 +96,11 @@ void BasicLoopRings<N>::find_regular_edges() {
   std::vector<std::uint8_t> vertices(heads_.size());
   for (std::int32_t v = 0; v < adjacency.vertex_count(); ++v)
     vertices[v] = adjacency.valence(v) == 6 && !adjacency.on_boundary(v) && kinds_[v] == VertexKind::kPlain;
-  // An edge with regular ends and, on either side, a regular apex.
-  const auto has_apex = [&](std::int32_t h) { return vertices[adjacency.origin(Adjacency::prev(h))]; };
   regular_.resize(corners_.size());
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(corners_.size()); ++h) {
-    if (vertices[adjacency.origin(h)] == 0 || vertices[adjacency.target(h)] == 0) continue;
-    regular_[h] = has_apex(h) & has_apex(adjacency.twin(h));
+  for (std::int32_t first = 0; first < static_cast<std::int32_t>(corners_.size()); first += 3) {
+    const auto at = [&](std::int32_t h) { return vertices[adjacency.origin(h)]; };
+    if ((at(first) & at(first + 1) & at(first + 2)) == 0) continue;
+    for (std::int32_t h = first; h < first + 3; ++h) regular_[h] = at(Adjacency::prev(adjacency.twin(h)));
   }
 }
 

@@ -14,7 +14,7 @@ int core_width(int corner) { return 5 - corner % 2; }
 int block_of(int corner) {  // batches of given_stride grids side by side
   const int kBlock = kWindow + 3 * (5 + 2 * depth);
   int grid = group();
-  return ((4 * kBlock + kParts) * (grid / given_stride) + corner * kBlock) * given_stride + grid % given_stride;
+  return ((4 * kBlock + kParts + kInside) * (grid / given_stride) + corner * kBlock) * given_stride + grid % given_stride;
 }
 
 // Memory: the windows of the corners, then in their place three rows of each level, points -1 .. 2^level + 1;

@@ -22,8 +22,8 @@
 namespace limitcheck::verify {
 namespace {
 
-/// The kernels of a quad that is not regular.
-constexpr std::size_t kOfQuads = 4;
+/// The kernels of a quad that is not regular, and of a pair that is.
+constexpr std::size_t kOfQuads = 4, kOfRegularPairs = 6;
 
 /// Digits of the worst weight. Every kernel must have a row with points.
 double expect_equal(const Neighbourhood& pair, const MapOptions& options, std::size_t kernels = 5) {
@@ -44,7 +44,8 @@ double expect_equal(const Neighbourhood& pair, const MapOptions& options, std::s
 
 TEST(Proof_Map, IsExactWithRationalWeights) {
   RecordProperty("claim", "C21");
-  for (const auto& valences : {std::array{6, 6, 6, 6}, std::array{3, 6, 4, 6}, std::array{4, 3, 6, 4}})
+  expect_equal(*interior_pair({6, 6, 6, 6}), {Arithmetic::kExact, 0, 4}, kOfRegularPairs);
+  for (const auto& valences : {std::array{3, 6, 4, 6}, std::array{4, 3, 6, 4}})
     expect_equal(*interior_pair(valences), {Arithmetic::kExact, 0, 3});
   for (const auto& valences : {std::array{3, 4, 5, 6}, std::array{7, 3, 8, 3}, std::array{12, 5, 3, 4},
                                std::array{3, 3, 3, 3}, std::array{20, 4, 4, 4}})

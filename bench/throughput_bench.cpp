@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Row streaming and all other routes in one run; compare the ratios of the last lines. --scheme loop (the
-// default) or catmull-clark; --gl: by OpenGL, too, on its device. Names:
-// route/steady|scratch/shape/faces:N/depth:M/threads:T, where the shape is bumpy, split (two of three pairs of faces are
-// regular) or torus (all) or, of quads, quads, half-regular or regular. Counters: points/s distinct limit points, written/s bytes of evaluated points, 24
-// each; peak: bytes by which the process grows in one run from scratch, the control mesh not counted.
+// Row streaming and all other routes in one run; compare the ratios of the last lines. --scheme loop (the default) or
+// catmull-clark; --gl: by OpenGL, too, on its device. Names: route/steady|scratch/shape/faces:N/depth:M/threads:T, where
+// the shape is bumpy, split (two of three pairs of faces are regular) or torus (all) or, of quads, quads, half-regular or
+// regular. Counters: points/s distinct limit points, written/s bytes of evaluated points, 24 each; peak: bytes by which the
+// process grows in one run from scratch, the control mesh not counted.
 #include <benchmark/benchmark.h>
 #include <hwy/aligned_allocator.h>
 

@@ -32,19 +32,15 @@ BatchUniforms BatchUniforms::of(const row_stream::QuadBatch<float>& batch, const
 }
 
 std::vector<EdgeEnds> edges_of_grids(int depth, int lanes) {
-  using row_stream::kA, row_stream::kB, row_stream::kC, row_stream::kD;
   using row_stream::kAB, row_stream::kBC, row_stream::kCD, row_stream::kDA, row_stream::kAC;
-  constexpr std::array<EdgeEnds, 5> of_grid{{{kA, 2, kD, 0, kDA},
-                                             {kB, 0, kC, 2, kBC},
-                                             {kA, 1, kC, 1, kAC},
-                                             {kD, 1, kC, 0, kCD},
-                                             {kA, 0, kB, 1, kAB}}};
   std::vector<EdgeEnds> all;
   const int block = row_stream::corner_block_size(depth) * lanes, parts = row_stream::parts_offset(depth);
   for (int grid = 0; grid < lanes; ++grid)
-    for (const EdgeEnds& e : of_grid)
+    for (const row_stream::Part edge : {kDA, kBC, kAC, kCD, kAB}) {
+      const row_stream::EdgeEnds& e = row_stream::kEdgeEnds[edge];
       all.push_back(
-          {e.p * block + grid, e.p_first, e.q * block + grid, e.q_first, (parts + e.own) * lanes + grid});
+          {e.p * block + grid, e.p_first, e.q * block + grid, e.q_first, (parts + edge) * lanes + grid});
+    }
   return all;
 }
 

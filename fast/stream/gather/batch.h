@@ -51,14 +51,16 @@ struct GridEdges {
   std::array<std::int32_t, kInside> of;
 };
 
-/// Which edges of a grid are regular, see regular_offset(): bit k for Part k from A on.
+/// Which edges of a grid are to be polynomials at a depth, see kPatchWindow: bit k for Part k.
 template <class N>
-unsigned regular_edges(const BasicLoopRings<N>& rings, const Grid& grid) {
-  const std::int32_t ac = 3 * grid.face0 + std::max(grid.edge0, 0), ca = 3 * grid.face1 + grid.edge1;
-  const auto bit = [&](std::int32_t h, Part edge) { return rings.is_regular(h) ? 1U << edge : 0U; };
-  unsigned edges = bit(Adjacency::next(ac), kCD) | bit(Adjacency::prev(ac), kDA) | bit(ac, kAC);
-  if (!grid.singleton()) edges |= bit(Adjacency::next(ca), kAB) | bit(Adjacency::prev(ca), kBC);
-  return edges;
+unsigned regular_edges(const BasicLoopRings<N>& rings, const Grid& grid, int depth,
+                       Order order = Order::kFromA) {
+  if (depth < kLocalFrom) return 0;
+  const GridEdges edges(rings.adjacency(), grid, order);
+  unsigned regular = 0;
+  for (int k = 0; k < kInside; ++k)
+    if (edges.of[k] >= 0 && rings.is_regular(edges.of[k])) regular |= 1U << k;
+  return regular;
 }
 inline constexpr unsigned kAllEdges = (1U << kInside) - 1;
 
@@ -138,19 +140,15 @@ bool put_parts(const LocalOrigins& local, int depth, int lanes, int count, T* ou
   return some;
 }
 
-// Tells the kernel which of its edges are regular, and where these are so in some lanes alone, in which: of each lane's
-// edges bit `from[k]` is of edge k.
+// Tells the kernel which of `count` edges are regular in which lanes: bit k of regular[lane] for edge k.
 template <class T>
-void put_regular(const unsigned* edges, std::span<const int> from, int lanes, T* out,
-                 BatchPlacement<T>& placement) {
-  unsigned some = 0, all = ~0U;
-  for (int lane = 0; lane < lanes; ++lane) some |= edges[lane], all &= edges[lane];
-  for (std::size_t k = 0; k < from.size() && some != 0; ++k) {
-    if ((some >> from[k] & 1) == 0) continue;
-    placement.some_regular |= 1U << k, placement.all_regular |= (all >> from[k] & 1) << k;
-    for (int lane = 0; lane < lanes; ++lane)
-      out[k * static_cast<std::size_t>(lanes) + lane] = T(static_cast<int>(edges[lane] >> from[k] & 1));
-  }
+void put_regular(const unsigned* regular, int count, int lanes, T* out, BatchPlacement<T>& placement) {
+  placement.all_regular = ~0U;
+  for (int lane = 0; lane < lanes; ++lane)
+    placement.some_regular |= regular[lane], placement.all_regular &= regular[lane];
+  for (int k = 0; k < count; ++k)
+    for (int lane = 0; (placement.some_regular >> k & 1) != 0 && lane < lanes; ++lane)
+      out[k * lanes + lane] = T(static_cast<int>(regular[lane] >> k & 1));
 }
 
 }  // namespace detail
@@ -203,16 +201,15 @@ BatchPlacement<typename N::Scalar> gather(const BasicLoopRings<N>& rings, std::s
                              local, depth, lanes, kParts, input + parts_offset(depth) * lanes,
                              [&](int lane) { return local_from(local, grid_of(lane)); }, own)};
   if (edges == Edges::kRegularByPolynomials && depth >= kLocalFrom) {
-    constexpr int from_a[] = {kAB, kBC, kCD, kDA, kAC}, from_c[] = {kCD, kDA, kAB, kBC, kAC};
     unsigned regular[kMaxLanes];
-    for (int lane = 0; lane < lanes; ++lane) regular[lane] = regular_edges(rings, grid_of(lane));
-    detail::put_regular(regular, order == Order::kFromA ? from_a : from_c, lanes,
-                        input + regular_offset(depth) * lanes, placement);
+    for (int lane = 0; lane < lanes; ++lane)
+      regular[lane] = regular_edges(rings, grid_of(lane), depth, order);
+    detail::put_regular(regular, kInside, lanes, input + regular_offset(depth) * lanes, placement);
   }
   return placement;
 }
 
-/// The same for a TrianglePatch, whatever the depth: of regular grids.
+/// The same for a TrianglePatch, whatever the depth: of pairs with regular corners.
 template <class N>
 BatchPlacement<typename N::Scalar> gather_regular(const BasicLoopRings<N>& rings, std::span<const Grid> grids,
                                                   int lanes, typename N::Scalar* input,
@@ -242,10 +239,9 @@ BatchPlacement<typename N::Scalar> gather_edges(const BasicLoopRings<N>& rings,
       rings.placement(), detail::put_parts(rings.local(), depth, lanes, 1, flags, from,
                                            [&](int lane, int) { return depth >= from(lane); })};
   if (edges == Edges::kRegularByPolynomials && depth >= kLocalFrom) {
-    constexpr int itself[] = {0};
     unsigned regular[kMaxLanes];
     for (int lane = 0; lane < lanes; ++lane) regular[lane] = rings.is_regular(half_edge(lane)) ? 1 : 0;
-    detail::put_regular(regular, itself, lanes, flags + lanes, placement);
+    detail::put_regular(regular, 1, lanes, flags + lanes, placement);
   }
   return placement;
 }

@@ -158,7 +158,7 @@ class BasicLoopRings {
     std::int32_t head, entry;
   };
   const Corner& corner(std::int32_t h) const { return corners_[h]; }
-  /// Whether an edge is regular, see regular_offset().
+  /// Whether an edge is regular, see kPatchWindow.
   bool is_regular(std::int32_t h) const { return regular_[h] != 0; }
 
   const Placement<T>& placement() const { return placement_; }
@@ -199,7 +199,7 @@ class BasicLoopRings {
 using LoopRings = BasicLoopRings<ScalarNumber<float>>;
 using Rings = LoopRings;  // its name until 0.2
 
-/// How the vertices of a quad let it be evaluated.
+/// How the vertices of a quad let it be evaluated; grids of triangles are regular, open, or semi-sharp where a cut touches them.
 enum class QuadClass : std::uint8_t {
   kRegular,   ///< all interior, of four quads: a bicubic polynomial
   kClosed,    ///< all interior

@@ -63,7 +63,7 @@ class NumberStream {
     }
   }
 
-  /// The same of a regular grid, from kLocalFrom on, as polynomials.
+  /// The same of one pair with regular corners, as polynomials.
   void patch(const Grid& grid, int depth, T* out, Order order = Order::kFromA) const {
     check(depth);
     std::vector<T> input(static_cast<std::size_t>(input_size(kPatchWindow)));

@@ -98,9 +98,8 @@ struct CallOf {
 
   // body(batch) for items or half-edges of one class; those that something alone touches come one by one. What fills the
   // lanes and lies side by side stays where it is.
-  //   alike   all are QuadClass::kOpen
   template <class T, class KindOf, class Body>
-  void by_class(std::span<const T> list, bool alike, const KindOf& kind_of, const Body& body) const {
+  void by_class(std::span<const T> list, const KindOf& kind_of, const Body& body) const {
     struct Queue {
       std::array<T, kMaxLanes> items;
       std::array<std::uint32_t, kMaxLanes> index;
@@ -113,11 +112,6 @@ struct CallOf {
       queue.count = 0;
     };
     for (std::size_t i = 0, end = 0; i < list.size(); i = end) {
-      if (alike) {
-        end = std::min(i + lanes, list.size());
-        body(Batch<T>{QuadClass::kOpen, list.subspan(i, end - i), i});
-        continue;
-      }
       const QuadClass kind = kind_of(list[i]);
       const std::size_t most = kind == QuadClass::kSemiSharp ? 1 : lanes;
       for (end = i + 1; end < list.size() && end - i < most && kind_of(list[end]) == kind;) ++end;
@@ -146,18 +140,16 @@ struct Call<LoopStreams> : CallOf<LoopStreams> {
   void prepare() const { grow(input_size(checked(depth)), work_size(depth)); }
   void prepare_edges() const { grow(edge_input_size(checked(depth)), edge_work_size(depth)); }
 
-  bool has_polynomials() const { return kernel.run_patches != nullptr && depth >= kLocalFrom; }
-  bool alike() const { return alike_edges() && !has_polynomials(); }
-  bool alike_edges() const { return touched == nullptr; }
+  bool has_polynomials() const { return kernel.run_patches != nullptr; }
   QuadClass kind_of(const Grid& grid) const {
     if (touched != nullptr && touched->touches(grid)) return QuadClass::kSemiSharp;
-    const bool regular = has_polynomials() && regular_edges(rings, grid) == kAllEdges;
+    const bool regular = has_polynomials() && regular_edges(rings, grid, depth) == kAllEdges;
     return regular ? QuadClass::kRegular : QuadClass::kOpen;
   }
   QuadClass kind_of_edge(std::int32_t h) const {
     return touched != nullptr && touched->touches(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
   }
-  // The lanes of a kernel lie at equal distances, and all of them write.
+  // Whether the kernel can write straight to these places: its lanes lie at equal distances, and all of them write.
   bool takes(const LanePlaces& lane, std::size_t count) const {
     if (count != static_cast<std::size_t>(kernel.lanes)) return false;
     for (std::size_t k = 2; k < count; ++k)
@@ -200,8 +192,6 @@ struct Call<QuadStreams> : CallOf<QuadStreams> {
   void prepare() const { grow(quad_input_size(checked(depth)), quad_work_size(depth)); }
   void prepare_edges() const { prepare(); }
 
-  static bool alike() { return false; }
-  static bool alike_edges() { return false; }
   QuadClass kind_of(std::int32_t face) const { return rings.kind(face); }
   QuadClass kind_of_edge(std::int32_t h) const {
     return rings.touches_semi_sharp(h) ? QuadClass::kSemiSharp : QuadClass::kOpen;
@@ -295,12 +285,12 @@ struct Evaluation : Call<Scheme> {
   template <class Body>
   void for_each_batch(std::span<const typename Scheme::Item> items, const Body& body) const {
     this->by_class(
-        items, this->alike(), [&](const auto& item) { return this->kind_of(item); }, body);
+        items, [&](const auto& item) { return this->kind_of(item); }, body);
   }
   template <class Body>
   void for_each_edges(std::span<const std::int32_t> half_edges, const Body& body) const {
     this->by_class(
-        half_edges, this->alike_edges(), [&](std::int32_t h) { return this->kind_of_edge(h); }, body);
+        half_edges, [&](std::int32_t h) { return this->kind_of_edge(h); }, body);
   }
 
   AloneEvaluator<typename Scheme::Alone>& alone() {
@@ -414,8 +404,7 @@ void QuadRowStream::move_points(const QuadMesh& mesh) {
 std::vector<Grid> RowStream::sorted(std::span<const Grid> grids) const {
   std::vector<Grid> all(grids.begin(), grids.end());
   const auto key = [&](const Grid& grid) {
-    return std::pair(local_from(grid),
-                     grid.depth < kLocalFrom ? 0 : regularity_rank(regular_edges(rings_, grid)));
+    return std::pair(local_from(grid), regularity_rank(regular_edges(rings_, grid, grid.depth)));
   };
   std::stable_sort(all.begin(), all.end(), [&](const Grid& a, const Grid& b) { return key(a) < key(b); });
   return all;

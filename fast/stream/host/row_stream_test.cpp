@@ -144,6 +144,37 @@ TEST(RowStreamBits, DoNotDependOnTheBatch) {
   }
 }
 
+TEST(RowStreamBits, AreEqualAtAllDepthsWhereTheSurfaceIsAPolynomial) {
+  const data::ControlMesh mesh = shaken(grid_torus(5, 6), .2, 9);
+  const Adjacency adjacency(mesh);
+  Workspace workspace;
+  const auto grid_at = [&](const RowStream& stream, std::size_t g, int depth) {
+    const auto grids = pair_faces(adjacency, std::vector<std::int32_t>(mesh.faces.size(), depth)).grids;
+    EXPECT_EQ(regular_edges(stream.rings(), grids[g], depth), kAllEdges);
+    std::vector<Vertex> out(static_cast<std::size_t>(side(depth) * side(depth)));
+    stream.whole(std::span(grids).subspan(g, 1), depth, workspace, out.data());
+    return out;
+  };
+  for (const Kernel& kernel : {kernels().front(), kernels().back()}) {
+    const RowStream stream(mesh, adjacency, kernel);
+    const int finest = kernel.fused ? kMaxDepth : 6;
+    for (const std::size_t g : {0U, 7U}) {
+      const auto fine = grid_at(stream, g, finest);
+      for (int depth = kLocalFrom; depth < finest; ++depth) {
+        const auto coarse = grid_at(stream, g, depth);
+        const std::size_t n = static_cast<std::size_t>(side(depth)),
+                          step = std::size_t{1} << (finest - depth);
+        for (std::size_t k = 0; k < n * n; ++k)
+          ASSERT_EQ(std::memcmp(&coarse[k],
+                                &fine[k / n * step * static_cast<std::size_t>(side(finest)) + k % n * step],
+                                sizeof(Vertex)),
+                    0)
+              << kernel.name << " depth " << depth << " point " << k;
+      }
+    }
+  }
+}
+
 TEST(RowStreamTargets, EachRunsTheCodeItNames) {
   const auto mesh = tetrahedron();
   for (const Kernel& kernel : kernels()) {

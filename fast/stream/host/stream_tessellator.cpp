@@ -165,8 +165,7 @@ struct LoopStreamFrames final
     const auto rank = [&](std::size_t i) {
       const int depth = patches[i].depth;
       const bool local = !stream.rings().local().none(depth) && depth >= stream.local_from(pairing.grids[i]);
-      const unsigned regular = depth >= kLocalFrom ? regular_edges(stream.rings(), pairing.grids[i]) : 0;
-      return 2 * regularity_rank(regular) + (local ? 1 : 0);
+      return 2 * regularity_rank(regular_edges(stream.rings(), pairing.grids[i], depth)) + (local ? 1 : 0);
     };
     sorted.sort(patches, first, last, skipped, rank, static_cast<std::size_t>(stream.kernel().lanes),
                 static_cast<std::size_t>(few_lanes.lanes), placed, batches);

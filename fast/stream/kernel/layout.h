@@ -78,7 +78,9 @@ constexpr int parts_offset(int depth) {
 /// edges are. From kLocalFrom on the points of a regular edge come from the polynomials that the surface is along it, and
 /// those inside a regular grid from the two that it is there. (The two ends would do for an edge: but then the many edges
 /// of an irregular mesh that have such ends would lie in batches of others, which have to evaluate both.)
-/// The input of regular grids is, whatever their depth, that of batches of this one, whose windows hold a regular ring.
+///
+/// The input of a batch of regular grids is that of a batch of this depth, whose windows hold the ring of a regular
+/// vertex.
 inline constexpr int kPatchWindow = 1;
 
 /// Of each edge of a grid, by Part, 1 in the lanes in which it is regular; read where only some are.

@@ -73,7 +73,7 @@ class RegularEdge {
     }
   }
 
-  /// A point at t of its square, see begin_vertex().
+  /// One coordinate of the point at t, whose square is given, too; see begin_vertex().
   HWY_ATTR HWY_INLINE void coordinate(V t, V square, int c, Vertex<N>& v, V (&along)[3],
                                       V (&across)[3]) const {
     const V two = N::splat(2), c2 = get(kPosition + 2, c), c3 = get(kPosition + 3, c),

@@ -248,7 +248,7 @@ class EdgeStream {
     }
   }
 
-  // What is between regular vertices.
+  // Regular edges, in the lanes that have such.
   HWY_ATTR void take_regular(const EdgeInput<Scalar>& edge, Scalar* out) const {
     const auto end = [&](const Scalar* block, int first) {
       return RegularEnd<N>{block, first + depth_ + 1, first + edge_window_width(depth_)};

@@ -27,7 +27,7 @@ struct Kernel {
   /// lane[k] on, and no byte beyond. Past the caches the caller fences. Null: this variant has rows alone.
   void (*run_lines)(float* input, int depth, const BatchPlacement<float>& placement, float* work,
                     float* const* lane, Stores stores);
-  /// Pairs with regular corners alone, see TrianglePatch, in both forms. Null: this kernel knows no polynomials, and is
+  /// Regular grids alone, see TrianglePatch, in both forms. Null: this kernel knows no polynomials, and is
   /// not told where edges are regular.
   decltype(run) run_patches = nullptr;
   decltype(run_lines) patch_lines = nullptr;

@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace limitcheck::fast::row_stream::HWY_NAMESPACE {
 
-/// `lanes` pairs of one depth, kLocalFrom at least. Differences are formed on the control net, seen from an origin of
+/// `lanes` pairs of one depth. Differences are formed on the control net, seen from an origin of
 /// the pair's own, so the normals are as good at every depth. Coordinates count from the middle of the pair, so half a turn
 /// about that negates the odd coefficients, exactly: rows from C have the bits of rows from A.
 template <class N, class To = LaneTarget<N>>

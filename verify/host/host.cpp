@@ -5,8 +5,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <utility>
 
 #include "data/error.h"
@@ -72,12 +74,20 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
     throw NotAsked(fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
                                LC_SUBJECT_ABI));
   }
-  lc_capabilities result{};
+  struct {
+    lc_capabilities known;
+    std::array<unsigned char, 256> behind;  // of a later interface than ours, which may not touch it
+  } answer{};
+  lc_capabilities& result = answer.known;
   result.size = sizeof result;
   result.scheme = scheme_of(scheme);
   detail::call(subject, "capabilities", [&](const char** message) {
     return subject.capabilities(detail::text(options), &result, message);
   });
+  if (std::ranges::any_of(answer.behind, std::identity()))
+    throw SubjectDied(SubjectDied::Kind::kProtocol,
+                      fmt::format("{}: it writes behind the {} bytes of capabilities that `size` gives it",
+                                  subject.name, sizeof result));
   if (const std::string wrong = impossible(result); !wrong.empty())
     throw SubjectDied(SubjectDied::Kind::kProtocol,
                       fmt::format("{}: its capabilities are impossible: {}", subject.name, wrong));

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <set>
@@ -234,7 +235,10 @@ lc_subject make_subject(const char* name, const char* description, const char* o
   subject.capabilities = [](const char* text, lc_capabilities* out, const char** message) {
     return detail::guarded(message, [&] {
       Options options(text);
-      *out = detail::capabilities_of<T>(options, out->scheme);
+      const std::uint32_t known = out->size;
+      const lc_capabilities mine = detail::capabilities_of<T>(options, out->scheme);
+      std::memcpy(out, &mine, std::min<std::size_t>(known, sizeof mine));
+      out->size = known;
       options.finish();
     });
   };

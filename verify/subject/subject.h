@@ -33,6 +33,7 @@
  * Versions: what interface 2 added stands at the end of each structure, behind what interface 1 has, so that
  * a subject built for 1 is called as it always was; it is asked for Loop's scheme on triangles alone. The
  * members `size` say how many bytes the host knows: a subject built for a later interface may not touch more.
+ * LC_KNOWS asks it about a member.
  */
 #ifndef LIMITCHECK_SUBJECT_H
 #define LIMITCHECK_SUBJECT_H
@@ -48,6 +49,10 @@ extern "C" {
 
 /* The version of this interface. */
 #define LC_SUBJECT_ABI 2u
+
+/* Whether the host knows a member that stands behind `size`: of those that came after 0.2.0 an older one has none. */
+#define LC_KNOWS(structure, member) \
+  ((structure)->size >= (size_t)((const char*)(&(structure)->member + 1) - (const char*)(structure)))
 
 /* How a call went. */
 typedef enum lc_status {

@@ -166,6 +166,7 @@ const std::vector<BehaviourGroup> kOfLibraries{
     {"memory", "50 are allowed", {"many_processes@tessellate"}},
     {"crash", "exit status", {"close_all@destroy"}},
     {"protocol", "broke the protocol", {"write_to_all@tessellate"}},
+    {"protocol", "it writes behind the 68 bytes of capabilities", {"later_interface"}},
     {"defect", "vertex_count is 1152921504606846976", {"huge_vertex_count@answer"}},
     {"defect", "triangle_count is 9223372036854775807", {"huge_triangle_count@answer"}},
     {"defect", "vertex_count is -1", {"negative_vertices@answer"}},

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The way of a new user: install to a prefix, build the examples outside the tree against it, audit them.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "verify/package/installed_test.h"
+#include "verify/subject/subject.h"
 
 namespace limitcheck::cli {
 namespace {
@@ -51,6 +55,21 @@ class Examples : public InstalledTest {
     }
     EXPECT_EQ(judged, meshes);
   }
+  /// What a library answers the host of 0.2.0, which had 52 bytes for its capabilities. It writes nothing behind them.
+  lc_status answer_to_an_older_host(const std::string& library) const {
+    alignas(lc_capabilities) std::array<std::uint8_t, sizeof(lc_capabilities)> bytes;
+    std::fill(std::fill_n(bytes.begin(), 52, std::uint8_t{0}), bytes.end(), std::uint8_t{0xA5});
+    auto* known = reinterpret_cast<lc_capabilities*>(bytes.data());
+    known->size = 52;
+    void* loaded = dlopen((folder_ / library).c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (loaded == nullptr) return ADD_FAILURE() << dlerror(), LC_FAILED;
+    const auto get = reinterpret_cast<decltype(&lc_subject_get)>(dlsym(loaded, LC_SUBJECT_ENTRY));
+    const char* message = nullptr;
+    const lc_status status = get(LC_SUBJECT_ABI)->capabilities(nullptr, known, &message);
+    dlclose(loaded);
+    EXPECT_TRUE(std::all_of(bytes.begin() + 52, bytes.end(), [](int b) { return b == 0xA5; })) << library;
+    return status;
+  }
 };
 
 TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
@@ -66,6 +85,9 @@ TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
   }
   expect_refined_points_held(
       shell(std::string("prefix/bin/limitcheck audit c/libquads.so --depth 3 --json - ") + kQuads), 5U);
+  for (const char* library : {"c/libloop.so", "cpp/libloop.so"})
+    EXPECT_EQ(answer_to_an_older_host(library), LC_NOT_SUPPORTED) << "no_provenance came later";
+  EXPECT_EQ(answer_to_an_older_host("c/libquads.so"), LC_OK);
 }
 
 // 5/8 in a(n) becomes 0.626. On the octahedron, +-unit vectors of valence 4, the limit of a vertex v is
@@ -161,6 +183,19 @@ TEST_F(Examples, InPythonOverTheCInterfacePassesTheAudit) {
   install();
   build(kExamples / "c", "c");
   const std::string script = (kExamples / "python/over_c.py").string();
+  // Behind a structure that is smaller than its own, a library may write.
+  std::string sizes;
+  for (const std::size_t s : {sizeof(lc_capabilities), sizeof(lc_mesh), sizeof(lc_request),
+                              sizeof(lc_tessellation), sizeof(lc_subject)})
+    sizes += std::to_string(s) + "\n";
+  const std::string folder = (kExamples / "python").string();
+  EXPECT_EQ(
+      shell("python3 -c \"import ctypes, sys; sys.path.append('" + folder +
+                "'); sys.argv = ['', 'c/libloop.so']; import over_c as o; print(*map(ctypes.sizeof, "
+                "(o.Capabilities, o.Mesh, o.Request, o.Tessellation, o.Subject)), sep='\\n')\" < /dev/null",
+            0)
+          .out,
+      sizes);
   expect_all_held(shell("prefix/bin/limitcheck audit --program \"python3 '" + script +
                         "' c/libloop.so\" icosahedron holes fan:5 --depth 2 --level quick --json -"),
                   12U * 3U);

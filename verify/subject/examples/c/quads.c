@@ -116,10 +116,11 @@ static Mesh refined(const Mesh* m) {
 }
 
 static lc_status capabilities(const char* options, lc_capabilities* out, const char** message) {
-  const lc_capabilities mine = {
-      LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE,      LC_POINTS_REFINED,    6, 0, 0,
-      1,          sizeof mine,     LC_SCHEME_CATMULL_CLARK, LC_DOES_CATMULL_CLARK};
-  *out = mine;
+  out->precision = LC_FLOAT64;
+  out->points = LC_POINTS_REFINED;
+  out->max_depth = 6;
+  out->exact_lattice = 1;
+  out->schemes = LC_DOES_CATMULL_CLARK; /* all else is 0: a spline at the boundary, no normals */
   if (options == NULL) return LC_OK;
   *message = "there are no options";
   return LC_INVALID_INPUT;

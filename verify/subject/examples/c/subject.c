@@ -8,9 +8,11 @@
 #include "loop.h"
 
 static lc_status capabilities(const char* options, lc_capabilities* out, const char** message) {
-  (void)options, (void)message;
-  *out = (lc_capabilities){LC_FLOAT64, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 6, 1, 0, 1};
-  out->no_provenance = 1;
+  (void)options;
+  if (!LC_KNOWS(out, no_provenance)) return *message = "this limitcheck is too old", LC_NOT_SUPPORTED;
+  out->precision = LC_FLOAT64; /* all else is 0: Loop's weights, a spline at the boundary, limit points */
+  out->max_depth = 6;
+  out->normals = out->exact_lattice = out->no_provenance = 1;
   return LC_OK;
 }
 

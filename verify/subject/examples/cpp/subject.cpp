@@ -6,9 +6,10 @@
 
 extern "C" const lc_subject* lc_subject_get(std::uint32_t abi) {
   static lc_subject subject{LC_SUBJECT_ABI, "loop-in-c++", "Loop subdivision step by step, in C++"};
-  subject.capabilities = [](const char*, lc_capabilities* out, const char**) {
-    *out = {LC_FLOAT32, LC_WEIGHTS_LOOP, LC_BOUNDARY_SPLINE, LC_POINTS_LIMIT, 6, 1, 0, 1};
-    out->no_provenance = 1;
+  subject.capabilities = [](const char*, lc_capabilities* out, const char** message) {
+    if (!LC_KNOWS(out, no_provenance)) return *message = "this limitcheck is too old", LC_NOT_SUPPORTED;
+    out->max_depth = 6;  // all else is 0: float, Loop's weights, a spline at the boundary, limit points
+    out->normals = out->exact_lattice = out->no_provenance = 1;
     return LC_OK;
   };
   subject.create = [](const lc_mesh* m, const char*, void** instance, const char** message) {

@@ -19,7 +19,9 @@ class Capabilities(c.Structure):
     _fields_ = [(name, c.c_int32) for name in ("precision", "weights", "boundary", "points", "max_depth", "normals",
                 "per_face_depth", "exact_lattice")] + [("size", c.c_uint32), ("scheme", c.c_int32),
                                                        ("schemes", c.c_int32), ("sharp", c.c_int32),
-                                                       ("does_not_validate", c.c_int32), ("no_provenance", c.c_int32)]
+                                                       ("does_not_validate", c.c_int32), ("no_provenance", c.c_int32),
+                                                       ("channel_rules", c.c_int32), ("channel_derivatives", c.c_int32),
+                                                       ("points_anywhere", c.c_int32)]
 
 
 class Mesh(c.Structure):
@@ -27,7 +29,8 @@ class Mesh(c.Structure):
                 ("size", c.c_uint32), ("scheme", c.c_int32), ("corners", c.c_void_p), ("corner_count", c.c_int64),
                 ("face_sizes", c.c_void_p), ("face_count", c.c_int64), ("sharp_edges", c.c_void_p), ("sharp_edge_count", c.c_int64),
                 ("sharp_vertices", c.c_void_p), ("sharp_vertex_count", c.c_int64), ("creasing", c.c_int32),
-                ("corners_held", c.c_int32), ("smooth_triangles", c.c_int32)]
+                ("corners_held", c.c_int32), ("smooth_triangles", c.c_int32), ("channels", c.c_void_p),
+                ("channel_count", c.c_int64)]
 
 
 Allocate = c.CFUNCTYPE(c.c_void_p, c.c_void_p, c.c_size_t)
@@ -40,7 +43,8 @@ class Request(c.Structure):
 
 class Tessellation(c.Structure):
     _fields_ = [("vertex_count", c.c_int64), ("triangle_count", c.c_int64)] + [(name, c.c_void_p) for name in (
-        "positions", "normals", "provenance", "triangles", "triangle_face", "owner")] + [("size", c.c_uint32), ("corner", c.c_void_p)]
+        "positions", "normals", "provenance", "triangles", "triangle_face", "owner")] + [("size", c.c_uint32)] + [
+        (name, c.c_void_p) for name in ("corner", "channel_values", "channel_derivatives")]
 
 
 Message = c.POINTER(c.c_char_p)

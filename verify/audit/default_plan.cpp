@@ -138,7 +138,8 @@ const std::vector<std::int32_t>& steps_of_ability() {
 Covered covered_by(const std::vector<Looked>& known, data::Scheme scheme, std::int32_t ability) {
   Covered result{CellSet(cells(scheme).size()), CellSet(cells(scheme).size())};
   for (std::size_t k = 0; k < result.wanted.size(); ++k)
-    result.wanted[k] = (cells(scheme)[k].needs() & ~(ability | kNeedsBoundary | kNeedsRelations)) == 0;
+    result.wanted[k] =
+        (cells(scheme)[k].needs() & ~(ability | kNeedsBoundary | kNeedsRelations | kNeedsOtherFaces)) == 0;
   for (const Looked& one : known)
     if ((one.needs & ~ability) == 0) add_cells(result.looked, one.cells);
   return result;

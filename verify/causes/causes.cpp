@@ -93,8 +93,10 @@ void describe_not_finite(const Report& report, Cause& cause) {
   if (worst.contains("degenerate-geometry"))
     when.emplace_back("where all control points are on one line or are one point");
   if (worst.contains("scaling")) when.emplace_back("on meshes 2^40 times smaller or larger");
-  cause.title = fmt::format("NaN, infinity or a normal of length 0{}{}", when.empty() ? "" : ": ",
-                            fmt::join(when, "; "));
+  const bool lengths = worst.contains("normal-length") && !worst.contains("finite");
+  cause.title = fmt::format(
+      "{}{}{}", lengths ? "Normals that are not of unit length" : "NaN, infinity or a normal of length 0",
+      when.empty() ? "" : ": ", fmt::join(when, "; "));
 }
 
 void describe_seams(const Report& report, Cause& cause) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/generators/named_mesh.h"
@@ -101,6 +102,15 @@ TEST(Causes, NumbersThatAreNoneAreOneCauseOfALibrary) {
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].kind, CauseKind::kNotFinite);
   EXPECT_EQ(all[0].who, "Lib");
+}
+
+TEST(Causes, OfLengthsAloneSayNothingOfNumbersThatAreNone) {
+  for (const auto& [check, begin] : {std::pair{"normal-length", "Normals that are not of unit length"},
+                                     {"finite", "NaN, infinity or a normal of length 0"}}) {
+    Report report = report_of({red("s", "m", check, 0.68)});
+    report.meshes[0].diagonal = 0x1p60;
+    EXPECT_TRUE(causes(report)[0].title.starts_with(begin)) << causes(report)[0].title;
+  }
 }
 
 TEST(Causes, DifferentPlacesAreDifferentCauses) {

@@ -272,11 +272,14 @@ verify::Level Job::level() const {
 void add_audit(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<AuditArguments>();
   CLI::App* command = app.add_subcommand("audit", "Judge a tessellator against the exact surface");
-  command->add_option(
-      "SUBJECT", a->subject,
-      fmt::format("Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), "
-                  "or program:COMMAND, or shader:FILE. Without it: all on the default meshes. Built in: {}",
-                  built_in_names()));
+  command
+      ->add_option(
+          "SUBJECT", a->subject,
+          fmt::format(
+              "Built-in subject, NAME or NAME:key=value,..., or all; or a shared library (./libmine.so), "
+              "or program:COMMAND, or shader:FILE. Without it: all on the default meshes. Built in: {}",
+              built_in_names()))
+      ->check(kNotEmpty);
   command->add_option(
       "MESH", a->meshes,
       "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "

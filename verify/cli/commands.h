@@ -13,6 +13,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,8 @@ std::string dumped(const nlohmann::ordered_json& json, int indent);
 
 /// For options that are real numbers: "nan" is a number to the parser, and within every range.
 extern const CLI::Validator kFinite;
+/// For what would be taken for not given at all: names from a variable that is not set.
+extern const CLI::Validator kNotEmpty;
 /// For seeds: the parser takes the largest number for a larger one.
 extern const CLI::Validator kSeed;
 
@@ -100,11 +103,13 @@ CLI::Option* add_number(CLI::App& command, const std::string& names, Number& val
   return command.add_option(names, value, text)->check(CLI::Range(least, most))->capture_default_str();
 }
 
-/// An option whose value --help calls `type`.
+/// An option whose value --help calls `type`; no empty text.
 template <class Value>
 CLI::Option* add_value(CLI::App& command, const std::string& names, Value& value, const char* type,
                        const std::string& text) {
-  return command.add_option(names, value, text)->type_name(type);
+  CLI::Option* const option = command.add_option(names, value, text)->type_name(type);
+  if constexpr (std::is_same_v<Value, std::string>) option->check(kNotEmpty);
+  return option;
 }
 
 /// An option that is one of these texts; --help shows its default.

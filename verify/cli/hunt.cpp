@@ -238,8 +238,10 @@ void add_hunt(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<HuntArguments>();
   CLI::App* command =
       app.add_subcommand("hunt", "Search for anything wrong with a tessellator on meshes without end");
-  command->add_option("SUBJECT", a->subject,
-                      "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND");
+  command
+      ->add_option("SUBJECT", a->subject,
+                   "As for limitcheck audit: built-in, ./libmine.so, or program:COMMAND")
+      ->check(kNotEmpty);
   CLI::Option* cases =
       add_number<std::uint64_t>(*command, "--cases", a->cases, 1, kMostCases, "How many cases");
   const std::map<std::string, double> units{{"s", 1}, {"m", 60}, {"h", 3600}};

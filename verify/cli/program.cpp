@@ -31,11 +31,15 @@ const CLI::Validator kFinite(
     },
     "");
 
+const CLI::Validator kNotEmpty(
+    [](std::string& text) { return text.empty() ? std::string("it is empty") : std::string(); }, "");
 const CLI::Validator kSeed(
     [](std::string& text) {
       errno = 0;
-      (void)std::strtoull(text.c_str(), nullptr, 0);
-      return errno == ERANGE ? text + " is no whole number from 0 to 18446744073709551615" : std::string();
+      (void)std::strtoull(text.c_str(), nullptr, 0);  // takes -1 for the largest
+      return errno == ERANGE || text.starts_with('-')
+                 ? text + " is no whole number from 0 to 18446744073709551615"
+                 : std::string();
     },
     "");
 

@@ -90,8 +90,10 @@ void add_subject_options(CLI::App& command, SubjectArguments& a) {
   add_words(command, "--containment", a.limits.namespaces, {{"auto", true}, {"subreaper", false}},
             "How a process is held, so that nothing it starts is left behind: auto is a PID namespace of its "
             "own where the system allows that, and elsewhere a subreaper");
-  add_value(command, "--witness-folder", a.witness_folder, "DIR",
-            "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
+  command
+      .add_option("--witness-folder", a.witness_folder,
+                  "Where control mesh and depths are saved when a process breaks down; '' for nowhere")
+      ->type_name("DIR")
       ->capture_default_str();
   group(command, "Subjects of your own (libraries, programs and shaders run in a process of their own)",
         {"--program", "--shader", "--isolate", "--timeout", "--memory", "--containment", "--witness-folder"});

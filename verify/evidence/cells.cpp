@@ -78,9 +78,11 @@ struct Table {
     add("one face by a boundary of edges", kNeedsBoundary),
         add("one face by a boundary of edges and corners", kNeedsBoundary | LC_SHARP_CORNERS);
     axis(Axis::kTriangles);
-    add("a triangle by the ordinary rule"), add("a triangle by the smooth rule", LC_SHARP_SMOOTH_TRIANGLES);
+    add("a triangle by the ordinary rule", kNeedsOtherFaces);
+    add("a triangle by the smooth rule", kNeedsOtherFaces | LC_SHARP_SMOOTH_TRIANGLES);
     axis(Axis::kCorners);
-    for (std::size_t k = 2; k < kLeast.size(); ++k) add("a face of " + words(k, "corner"));
+    for (std::size_t k = 2; k < kLeast.size(); ++k)
+      add("a face of " + words(k, "corner"), k == size_class_of(4) ? 0 : kNeedsOtherFaces);
     axis(Axis::kDepth);
     for (int k = 0; k < kDepthClasses; ++k)
       add(fmt::format("depth {}{}", k, k + 1 == kDepthClasses ? " and more" : ""));

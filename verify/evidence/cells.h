@@ -57,7 +57,8 @@ struct Feature {
   std::int32_t needs = 0;
 };
 inline constexpr std::int32_t kNeedsBoundary = 1 << 20, kNeedsDepths = 1 << 21;
-inline constexpr std::int32_t kNeedsRelations = 1 << 22;  // not of the subject, but of the audit's level
+inline constexpr std::int32_t kNeedsOtherFaces = 1 << 23;  // than quads, by Catmull-Clark
+inline constexpr std::int32_t kNeedsRelations = 1 << 22;   // not of the subject, but of the audit's level
 
 /// All of them, axis by axis.
 const std::vector<Feature>& features();

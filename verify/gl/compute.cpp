@@ -94,11 +94,16 @@ void GlProgram::set(const char* uniform, std::int32_t value) const {
   glUniform1i(place(uniform), value);
 }
 
+std::array<GLint, 3> GlProgram::group() const {
+  std::array<GLint, 3> size{};
+  glGetProgramiv(program_, GL_COMPUTE_WORK_GROUP_SIZE, size.data());
+  return size;
+}
+
 void GlProgram::compute(std::int64_t items) const {
-  std::array<GLint, 3> group{};
-  glGetProgramiv(program_, GL_COMPUTE_WORK_GROUP_SIZE, group.data());
   constexpr std::int64_t kMost = 65535;  // groups in a row that every driver does
-  const std::int64_t groups = (items + group[0] - 1) / group[0], rows = (groups + kMost - 1) / kMost;
+  const std::int64_t across = group()[0], groups = (items + across - 1) / across,
+                     rows = (groups + kMost - 1) / kMost;
   if (items > 0)
     glDispatchCompute(static_cast<GLuint>(std::min(groups, kMost)), static_cast<GLuint>(rows), 1);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);

@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -41,6 +42,8 @@ class GlProgram {
   /// gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x. What it writes is there for all
   /// that comes after it.
   void compute(std::int64_t items) const;
+  /// How many lanes one of its groups has in each direction.
+  std::array<GLint, 3> group() const;
 
  private:
   GLuint program_ = 0;

@@ -5,10 +5,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <utility>
 
 #include "data/error.h"
@@ -39,7 +37,8 @@ std::string impossible(const lc_capabilities& c) {
                                     {"does_not_validate", c.does_not_validate},
                                     {"no_provenance", c.no_provenance},
                                     {"channel_derivatives", c.channel_derivatives},
-                                    {"points_anywhere", c.points_anywhere}})
+                                    {"points_anywhere", c.points_anywhere},
+                                    {"quads_only", c.quads_only}})
     if (value != 0 && value != 1)
       return fmt::format("{} is {}, and only 0 and 1 mean something", name, value);
   if (c.schemes < 0 || c.schemes > (LC_DOES_LOOP | LC_DOES_CATMULL_CLARK))
@@ -74,20 +73,13 @@ lc_capabilities capabilities(const lc_subject& subject, const std::string& optio
     throw NotAsked(fmt::format("the subject was built for interface {}, this program has {}", subject.abi,
                                LC_SUBJECT_ABI));
   }
-  struct {
-    lc_capabilities known;
-    std::array<unsigned char, 256> behind;  // of a later interface than ours, which may not touch it
-  } answer{};
+  detail::Guarded<lc_capabilities> answer;
   lc_capabilities& result = answer.known;
-  result.size = sizeof result;
   result.scheme = scheme_of(scheme);
   detail::call(subject, "capabilities", [&](const char** message) {
     return subject.capabilities(detail::text(options), &result, message);
   });
-  if (std::ranges::any_of(answer.behind, std::identity()))
-    throw SubjectDied(SubjectDied::Kind::kProtocol,
-                      fmt::format("{}: it writes behind the {} bytes of capabilities that `size` gives it",
-                                  subject.name, sizeof result));
+  answer.expect_nothing_behind(subject);
   if (const std::string wrong = impossible(result); !wrong.empty())
     throw SubjectDied(SubjectDied::Kind::kProtocol,
                       fmt::format("{}: its capabilities are impossible: {}", subject.name, wrong));
@@ -127,6 +119,9 @@ Session::Session(const lc_subject& subject, const data::ControlMesh& mesh, std::
     for (double& x : channel.values)
       if (single) x = static_cast<double>(static_cast<float>(x));
   lent_ = LentMesh(mesh_, scheme);
+  if (input == Input::kValid && capabilities_.quads_only != 0 && scheme == data::Scheme::kCatmullClark &&
+      std::ranges::any_of(lent_.face_sizes, [](std::int32_t n) { return n != 4; }))
+    throw NotAsked(fmt::format("{}: does quads alone", subject.name));
 
   const lc_mesh& mine = lent_.lend();
   detail::call(subject_, "create", [&](const char** message) {

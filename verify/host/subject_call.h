@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <string>
 
@@ -36,9 +38,12 @@ void call(const lc_subject& subject, const char* function, Call&& function_call)
     throw SubjectError(LC_FAILED, fmt::format("{}: {}() threw", subject.name, function));
   }
   if (status == LC_OK) return;
-  if (status != LC_NOT_SUPPORTED && status != LC_INVALID_INPUT) status = LC_FAILED;
-  throw SubjectError(
-      status, fmt::format("{}: {}", subject.name, message != nullptr ? message : "no reason was given"));
+  std::string why = message != nullptr ? message : "no reason was given";
+  if (status != LC_NOT_SUPPORTED && status != LC_INVALID_INPUT && status != LC_FAILED) {
+    why = fmt::format("its status {} is none: {}", static_cast<int>(status), why);
+    status = LC_FAILED;
+  }
+  throw SubjectError(status, fmt::format("{}: {}", subject.name, why));
 } catch (const SubjectError& error) {
   const auto* died = dynamic_cast<const SubjectDied*>(&error);
   const bool broke =
@@ -53,6 +58,25 @@ inline const char* text(const std::string& options) {
   return options.empty() ? nullptr : options.c_str();
 }
 
+/// A structure that a subject fills in, and what one built for a later interface than ours may not touch.
+template <class Known>
+struct Guarded {
+  static constexpr unsigned char kPattern = 0xA5;
+  Known known{};
+  std::array<unsigned char, 256> behind;
+  Guarded() {
+    known.size = sizeof known;
+    behind.fill(kPattern);
+  }
+  /// Throws SubjectDied otherwise.
+  void expect_nothing_behind(const lc_subject& subject) const {
+    if (std::ranges::any_of(behind, [](unsigned char b) { return b != kPattern; }))
+      throw SubjectDied(SubjectDied::Kind::kProtocol,
+                        fmt::format("{}: it writes behind the {} bytes of a structure that `size` gives it",
+                                    subject.name, sizeof known));
+  }
+};
+
 /// What a subject delivered, and whether release() threw. The arrays are the host's, so the subject lets go at once;
 /// a copy, because it may clear its own.
 struct Delivered {
@@ -62,10 +86,11 @@ struct Delivered {
 inline Delivered tessellate(const lc_subject& subject, void* instance,
                             std::span<const std::int32_t> face_depth, int threads, Memory& memory) {
   const lc_request request{face_depth.data(), threads, &memory, &Memory::allocate, sizeof(lc_request)};
-  lc_tessellation out{};
-  out.size = sizeof out;
+  Guarded<lc_tessellation> answer;
+  lc_tessellation& out = answer.known;
   call(subject, "tessellate",
        [&](const char** message) { return subject.tessellate(instance, &request, &out, message); });
+  answer.expect_nothing_behind(subject);
   const lc_tessellation delivered = out;
   try {
     subject.release(instance, &out);

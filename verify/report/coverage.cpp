@@ -58,6 +58,7 @@ CoverageQuestion coverage_question(const std::vector<AuditSubject>& subjects,
         question.declared.push_back({s.label(), scheme,
                                      c.sharp | (c.boundary != LC_BOUNDARY_NONE ? kNeedsBoundary : 0) |
                                          (c.per_face_depth != 0 ? kNeedsDepths : 0) |
+                                         (c.quads_only == 0 ? kNeedsOtherFaces : 0) |
                                          (relations ? kNeedsRelations : 0),
                                      c.max_depth});
       } catch (const std::exception&) {  // the rows say why

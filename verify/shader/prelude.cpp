@@ -4,11 +4,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "data/sharpness.h"
@@ -186,6 +188,21 @@ std::string compute_text(const ShaderSource& source, lc_scheme scheme, const std
          (function ? kPlace : "") + defined + of_the_user(source) + (function ? kEachPlace : "");
 }
 
+// Mesa's driver for the processor (22.3.6) gets loops wrong in lanes of its vectors that a group leaves empty; its softpipe,
+// with the same shaders, does not.
+void refuse_groups_with_empty_lanes(const GlProgram& program, const std::string& file) {
+  constexpr int kLanes = 8;
+  const std::array<GLint, 3> group = program.group();
+  const int size = group[0] * group[1] * group[2];
+  if (size % kLanes != 0 &&
+      std::string_view(reinterpret_cast<const char*>(glGetString(GL_RENDERER))).starts_with("llvmpipe"))
+    throw SubjectError(
+        LC_INVALID_INPUT,
+        fmt::format("{}: work groups of {}: llvmpipe computes wrong points in groups that are no "
+                    "multiple of {}; take 8, 16, 32 or 64 for local_size_x",
+                    file, size, kLanes));
+}
+
 }  // namespace
 
 GlPrograms::GlPrograms(const ShaderSource& source, lc_scheme scheme) {
@@ -193,6 +210,7 @@ GlPrograms::GlPrograms(const ShaderSource& source, lc_scheme scheme) {
   const auto add = [&](const std::vector<GlProgram::Stage>& stages,
                        const std::vector<const char*>& captured = {}) {
     programs_.push_back(std::make_unique<GlProgram>(stages, source.file, captured));
+    if (captured.empty()) refuse_groups_with_empty_lanes(*programs_.back(), source.file);
   };
   try {
     switch (source.form) {
@@ -213,6 +231,7 @@ GlPrograms::GlPrograms(const ShaderSource& source, lc_scheme scheme) {
         break;
     }
   } catch (const std::runtime_error& error) {
+    programs_.clear();  // while there is a context
     throw SubjectError(LC_INVALID_INPUT, error.what());
   }
 }

@@ -59,16 +59,13 @@ class ShaderSubject {
     c.schemes = s.schemes;
     c.sharp = s.sharp;
     c.does_not_validate = 1;
+    c.quads_only = s.quads_only;
     c.no_provenance = s.form == Form::kPasses;
     c.points_anywhere = s.form == Form::kTessellation && s.points == LC_POINTS_LIMIT;
     return c;
   }
 
-  ShaderSubject(const lc_mesh& mesh, Options&) : mesh_(mesh), half_edges_(mesh) {
-    if (the_source->quads_only && std::any_of(mesh.face_sizes, mesh.face_sizes + mesh.face_count,
-                                              [](std::int32_t n) { return n != 4; }))
-      throw SubjectError(LC_NOT_SUPPORTED, the_source->file + " does quads alone, as it says");
-  }
+  ShaderSubject(const lc_mesh& mesh, Options&) : mesh_(mesh), half_edges_(mesh) {}
 
   void tessellate(const lc_request& request, lc_tessellation& out) {
     counts_ = {mesh_.scheme, half_edges_.counts, uniform_depth(request, mesh_), 0};

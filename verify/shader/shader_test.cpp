@@ -94,6 +94,40 @@ TEST_F(ShaderDoor, WhatDoesNotCompileIsNamedWithTheLineOfTheFile) {
   EXPECT_TRUE(says(o.err, "rows")) << o.err;
 }
 
+// Lines end with LF, CR LF or CR; a mark of the byte order may come first, as editors write it.
+TEST_F(ShaderDoor, OfEveryKindOfTextTheLinesAreSeen) {
+  const std::string text = contents_of(kTemplates / "function.glsl");
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string other;
+    for (const char c : text) other += c == '\n' ? end : std::string(1, c);
+    write("right.glsl", "\xEF\xBB\xBF" + other);
+    EXPECT_EQ(status(audited("right.glsl quad-torus --depth 1 --level quick", 0), "positions"), "held");
+    write("wrong.glsl",
+          "\xEF\xBB\xBF#pragma limitcheck scheme loop" + end + "#pragma limitcheck wish" + end + other);
+    const Outcome o = run("audit --shader wrong.glsl quad-cube --depth 1 --level quick", 2);
+    EXPECT_TRUE(says(o.err, "wrong.glsl:2: ")) << o.err;
+  }
+  write("wrong.glsl", "// text\n" + std::string(1, '\0') + text);
+  EXPECT_TRUE(says(run("audit --shader wrong.glsl quad-cube --depth 1", 2).err, "wrong.glsl:2: a NUL"));
+}
+
+// llvmpipe is wrong in such groups; another device may do them.
+TEST_F(ShaderDoor, GroupsThatTheDriverGetsWrongAreRefusedAndTheShaderIsNotBlamed) {
+  plant("passes.glsl", "layout(std430, binding = 2)",
+        "layout(local_size_x = 4) in;\nlayout(std430, binding = 2)");
+  const Outcome o = run("audit --shader wrong.glsl quad-torus --depth 1 --level quick");
+  EXPECT_TRUE(o.code == 0 || (o.code == 2 && says(o.err, "work groups of 4"))) << o.out << o.err;
+}
+
+// What it says that it does not do it is not asked for.
+TEST_F(ShaderDoor, QuadsAloneAreNoFault) {
+  const std::string file = (kTemplates / "function.glsl").string();
+  const json report =
+      audited(file + " quad-torus prism:5 --depth 1 --level quick", 2);  // not all was looked at
+  EXPECT_EQ(status(report, "positions"), "held");
+  EXPECT_EQ(status(report, "tessellates", "prism:5"), "not-supported");
+}
+
 // A driver may end the loop, as llvmpipe does after some turns: then the points are wrong; or the time is over.
 TEST_F(ShaderDoor, ALoopWithoutEndIsAFindingAndTheAuditGoesOn) {
   plant("function.glsl", "  position = vec3(0);\n",
@@ -116,6 +150,8 @@ TEST_F(ShaderDoor, PragmasThatMeanNothingAreRefusedWithTheirLine) {
   for (const auto& [line, what] : {std::pair{"#pragma limitcheck scheme third", "third"},
                                    {"#pragma limitcheck max-depth eleven", "eleven"},
                                    {"#pragma limitcheck pass FACES F( 1..2", "F("},
+                                   {"#pragma limitcheck pass 9X V", "'9X' is no name of a pass"},
+                                   {"#pragma limitcheck pass main V", "'main' is no name of a pass"},
                                    {"#pragma limitcheck wish all", "wish"}}) {
     write("wrong.glsl", std::string("// a shader\n") + line + "\n");
     const Outcome o = run("audit --shader wrong.glsl quad-cube", 2);

@@ -195,6 +195,12 @@ void take(ShaderSource& s, const Words& words) {
       refuse("binding " + words[1] + " has two buffers");
   } else if (key == "pass") {
     need(words, 3, 4, "pass NAME ITEMS, or pass NAME ITEMS FIRST..LAST");
+    const auto letter = [](char c) { return (c | 32) >= 'a' && (c | 32) <= 'z'; };
+    if (!letter(words[1][0]) || words[1].starts_with("lc_") || words[1] == "main" ||
+        !std::ranges::all_of(words[1],
+                             [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; }))
+      refuse("'" + words[1] +
+             "' is no name of a pass: a letter, then letters, digits and _; not main or lc_");
     ShaderSource::Pass pass{words[1], formula(words[2]), {}};
     if (words.size() == 4) {
       const std::size_t dots = words[3].find("..");
@@ -249,6 +255,14 @@ ShaderSource read_shader(const std::string& named) {
   } catch (const data::Error& error) {
     refuse(error.what());
   }
+  // Compilers count lines as we do: at CR, LF and CR LF; they take no mark of the byte order and stop at a NUL.
+  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
+  if (const std::size_t nul = content.find('\0'); nul != std::string::npos)
+    refuse(fmt::format(
+        "{}:{}: a NUL, which no text has", file,
+        1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(nul), '\n')));
+  for (std::size_t at = 0; (at = content.find('\r', at)) != std::string::npos;)
+    content.replace(at, content.compare(at, 2, "\r\n") == 0 ? 2 : 1, "\n");
   std::istringstream lines(content);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {

@@ -172,6 +172,7 @@ typedef struct lc_capabilities {
    * multiple below 2^32, in each tessellation. The depth asked for is what the subject makes of it. Limit points
    * only, and not together with no_provenance. */
   int32_t points_anywhere;
+  int32_t quads_only; /* 1: subdivides by Catmull-Clark meshes of quads alone, and is asked for no others */
 } lc_capabilities;
 
 /* A control mesh: an oriented 2-manifold, boundaries allowed, with tags on edges and vertices that exist, or

@@ -128,13 +128,21 @@ std::size_t real_size(const Capabilities& capabilities) {
 }  // namespace
 
 std::string printable(std::string_view text, std::size_t longest) {
+  const std::string_view shown = text.substr(0, longest);
   std::string out;
-  for (const char c : text.substr(0, longest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte < 0x7F) {
-      out += c;
+  for (std::size_t k = 0; k < shown.size();) {
+    const auto byte = static_cast<unsigned char>(shown[k]);
+    // Of a letter beyond ASCII all bytes, if they are valid UTF-8; 0xC2 0x80 to 0x9F are control characters.
+    const std::size_t bytes = byte < 0xC2 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 1;
+    const std::string_view letter = shown.substr(k, bytes);
+    const bool valid = bytes > 1 && nlohmann::json::accept(fmt::format("\"{}\"", letter)) &&
+                       (byte > 0xC2 || static_cast<unsigned char>(letter[1]) >= 0xA0);
+    if (valid || (byte >= 0x20 && byte < 0x7F)) {
+      out += letter;
+      k += letter.size();
     } else {
       out += fmt::format("\\x{:02x}", byte);
+      ++k;
     }
   }
   return text.size() > longest ? out + "..." : out;
@@ -234,6 +242,7 @@ Capabilities read_capabilities(Source& source) {
   if (version > 1 && header.has("channel_derivatives"))
     c.channel_derivatives = header.flag("channel_derivatives");
   if (version > 1 && header.has("points_anywhere")) c.points_anywhere = header.flag("points_anywhere");
+  if (header.has("quads_only")) c.quads_only = header.flag("quads_only");
   if (header.has("options")) result.options = header.text("options");
   if (header.has("device")) result.device = printable(header.text("device"), 200);
   if (header.has("payload"))

@@ -88,6 +88,16 @@ TEST(Protocol, ReadsWhatASubjectSaysAboutItself) {
   EXPECT_EQ(c.payload, Payload::kText);
   EXPECT_EQ(c.values.does_not_validate, 0);
   EXPECT_EQ(capabilities_of("{" + kHello + ", \"does_not_validate\": true}\n").values.does_not_validate, 1);
+  EXPECT_EQ(c.values.quads_only, 0);
+  EXPECT_EQ(capabilities_of("{" + kHello + ", \"quads_only\": true}\n").values.quads_only, 1);
+}
+
+// Letters of all alphabets; what a terminal would obey, and bytes that are no letter or half of one, in hexadecimal.
+TEST(Protocol, PrintsWhatCanBePrinted) {
+  EXPECT_EQ(printable("Größe ∞ 𝄞 \\", 100), "Größe ∞ 𝄞 \\");
+  EXPECT_EQ(printable("\x1B[2J\n\x7F", 100), "\\x1b[2J\\x0a\\x7f");
+  EXPECT_EQ(printable("\xC2\x9B\xC3(\xED\xA0\x80\xFF", 100), "\\xc2\\x9b\\xc3(\\xed\\xa0\\x80\\xff");
+  EXPECT_EQ(printable("ö", 1), "\\xc3...");
 }
 
 TEST(Protocol, RefusesAnswersThatAreNone) {

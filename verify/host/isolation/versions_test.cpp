@@ -21,7 +21,7 @@ const std::string kVersion1Program =
 
 // What interface 2 added stands behind what interface 1 has (test_subjects/interface_1.c). README.md has
 // the sizes.
-static_assert(offsetof(lc_capabilities, size) == 32 && sizeof(lc_capabilities) == 68);
+static_assert(offsetof(lc_capabilities, size) == 32 && sizeof(lc_capabilities) == 72);
 static_assert(offsetof(lc_mesh, size) == 32 && sizeof(lc_mesh) == 136);
 static_assert(offsetof(lc_request, size) == 32 && sizeof(lc_request) == 40);
 static_assert(offsetof(lc_tessellation, size) == 64 && sizeof(lc_tessellation) == 96);

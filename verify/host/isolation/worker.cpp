@@ -111,6 +111,7 @@ nlohmann::json capabilities_answer(const lc_subject& subject, const std::string&
           {"channels", protocol::names_of(c.channel_rules, data::kChannelRules)},
           {"channel_derivatives", c.channel_derivatives != 0},
           {"points_anywhere", c.points_anywhere != 0},
+          {"quads_only", c.quads_only != 0},
           {"options", subject.options != nullptr ? subject.options : ""}};
 }
 

@@ -85,6 +85,9 @@ TEST_F(Examples, InCAndInCppBuildAgainstTheInstalledPackageAndPassTheAudit) {
   }
   expect_refined_points_held(
       shell(std::string("prefix/bin/limitcheck audit c/libquads.so --depth 3 --json - ") + kQuads), 5U);
+  // Of other faces it says that it does not do them: nothing is judged, and nothing is a finding.
+  EXPECT_TRUE(
+      says(shell("prefix/bin/limitcheck audit c/libquads.so prism:5 --depth 1", 2).out, "does quads alone"));
   for (const char* library : {"c/libloop.so", "cpp/libloop.so"})
     EXPECT_EQ(answer_to_an_older_host(library), LC_NOT_SUPPORTED) << "no_provenance came later";
   EXPECT_EQ(answer_to_an_older_host("c/libquads.so"), LC_OK);

@@ -77,6 +77,7 @@ const std::map<std::string, Spoil>& spoils() {
       {"not_a_number",
        [](lc_tessellation& t) { positions(t)[0] = std::numeric_limits<double>::quiet_NaN(); }},
       {"infinite", [](lc_tessellation& t) { positions(t)[0] = HUGE_VAL; }},
+      {"write_behind_itself", [](lc_tessellation& t) { reinterpret_cast<std::int32_t*>(&t + 1)[2] = 1; }},
       {"nothing_at_all", [](lc_tessellation& t) { std::memset(&t, 0, sizeof t); }},
       {"modify_positions", [](lc_tessellation&) { const_cast<double*>(lent.positions)[4] += 1; }},
       {"modify_triangles", [](lc_tessellation&) { const_cast<std::int32_t*>(lent.triangles)[0] ^= 1; }},

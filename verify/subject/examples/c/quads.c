@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A subject of Catmull-Clark's in one file of C: a mesh of quads, refined step by step in double. It
  * delivers the vertices of the refined mesh, not points of the limit surface, and its capabilities say so.
- * Faces that are no quads it refuses; examples/python/quads.py takes them. */
+ * Meshes of other faces it is not asked for, as they say, too; examples/python/quads.py takes them. */
 #include <limitcheck/subject.h>
 #include <math.h>
 #include <stdlib.h>
@@ -121,6 +121,7 @@ static lc_status capabilities(const char* options, lc_capabilities* out, const c
   out->max_depth = 6;
   out->exact_lattice = 1;
   out->schemes = LC_DOES_CATMULL_CLARK; /* all else is 0: a spline at the boundary, no normals */
+  if (LC_KNOWS(out, quads_only)) out->quads_only = 1;
   if (options == NULL) return LC_OK;
   *message = "there are no options";
   return LC_INVALID_INPUT;

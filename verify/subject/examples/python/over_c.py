@@ -21,7 +21,7 @@ class Capabilities(c.Structure):
                                                        ("schemes", c.c_int32), ("sharp", c.c_int32),
                                                        ("does_not_validate", c.c_int32), ("no_provenance", c.c_int32),
                                                        ("channel_rules", c.c_int32), ("channel_derivatives", c.c_int32),
-                                                       ("points_anywhere", c.c_int32)]
+                                                       ("points_anywhere", c.c_int32), ("quads_only", c.c_int32)]
 
 
 class Mesh(c.Structure):

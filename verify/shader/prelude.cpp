@@ -188,8 +188,8 @@ std::string compute_text(const ShaderSource& source, lc_scheme scheme, const std
          (function ? kPlace : "") + defined + of_the_user(source) + (function ? kEachPlace : "");
 }
 
-// Mesa's driver for the processor (22.3.6) gets loops wrong in lanes of its vectors that a group leaves empty; its softpipe,
-// with the same shaders, does not.
+// Mesa's driver for the processor (22.3.6) computes wrong points where a group leaves lanes of its vectors empty; softpipe,
+// its other one, does not, with the same shaders.
 void refuse_groups_with_empty_lanes(const GlProgram& program, const std::string& file) {
   constexpr int kLanes = 8;
   const std::array<GLint, 3> group = program.group();

@@ -263,8 +263,7 @@ void add_eval(CLI::App& app, int& exit_code) {
           *command, "--channel", request->channel, "NAME",
           "Evaluate a face-varying channel of the mesh in place of its positions: uv, the texture "
           "coordinates of an OBJ file or of a mesh by name. Face and parameters say on which side of a seam")
-          ->excludes(subject)
-          ->check([](const std::string& name) { return name.empty() ? "a channel has a name" : ""; });
+          ->excludes(subject);
   add_channel_rule(*command, request->channel_rule)->needs(channel);
   command->footer(
       "Catmull-Clark: on a quad (U, V) is (0, 0) at corner 0, (1, 0) at corner 1, (1, 1) and (0, 1) at "

@@ -117,7 +117,7 @@ EvalOfAChannelThatIsNoneOrCannotBeHasAClearError() {
     refused 'eval two.obj 0 0 0' <<<"$options"
     err "$words"
   done <<'E'
---channel ''|a channel has a name
+--channel ''|--channel: it is empty
 --channel st|the mesh has no channel 'st'; it has uv
 --channel uv --channel-rule smooth|--channel-rule
 --channel-rule all|--channel

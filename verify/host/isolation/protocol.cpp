@@ -4,7 +4,9 @@
 #include <fmt/core.h>
 
 #include <bit>
+#include <boost/locale/utf.hpp>
 #include <charconv>
+#include <cstdint>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <type_traits>
@@ -130,19 +132,14 @@ std::size_t real_size(const Capabilities& capabilities) {
 std::string printable(std::string_view text, std::size_t longest) {
   const std::string_view shown = text.substr(0, longest);
   std::string out;
-  for (std::size_t k = 0; k < shown.size();) {
-    const auto byte = static_cast<unsigned char>(shown[k]);
-    // Of a letter beyond ASCII all bytes, if they are valid UTF-8; 0xC2 0x80 to 0x9F are control characters.
-    const std::size_t bytes = byte < 0xC2 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 1;
-    const std::string_view letter = shown.substr(k, bytes);
-    const bool valid = bytes > 1 && nlohmann::json::accept(fmt::format("\"{}\"", letter)) &&
-                       (byte > 0xC2 || static_cast<unsigned char>(letter[1]) >= 0xA0);
-    if (valid || (byte >= 0x20 && byte < 0x7F)) {
-      out += letter;
-      k += letter.size();
+  for (auto at = shown.begin(); at != shown.end();) {
+    auto next = at;
+    const std::uint32_t code = boost::locale::utf::utf_traits<char>::decode(next, shown.end());
+    if (boost::locale::utf::is_valid_codepoint(code) && code >= 0x20 && (code < 0x7F || code >= 0xA0)) {
+      out.append(at, next);
+      at = next;
     } else {
-      out += fmt::format("\\x{:02x}", byte);
-      ++k;
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(*at++));
     }
   }
   return text.size() > longest ? out + "..." : out;

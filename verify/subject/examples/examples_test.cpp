@@ -193,7 +193,7 @@ TEST_F(Examples, InPythonOverTheCInterfacePassesTheAudit) {
     sizes += std::to_string(s) + "\n";
   const std::string folder = (kExamples / "python").string();
   EXPECT_EQ(
-      shell("python3 -c \"import ctypes, sys; sys.path.append('" + folder +
+      shell("python3 -B -c \"import ctypes, sys; sys.path.append('" + folder +
                 "'); sys.argv = ['', 'c/libloop.so']; import over_c as o; print(*map(ctypes.sizeof, "
                 "(o.Capabilities, o.Mesh, o.Request, o.Tessellation, o.Subject)), sep='\\n')\" < /dev/null",
             0)

@@ -280,11 +280,14 @@ void add_audit(CLI::App& app, int& exit_code) {
               "or program:COMMAND, or shader:FILE. Without it: all on the default meshes. Built in: {}",
               built_in_names()))
       ->check(kNotEmpty);
-  command->add_option(
-      "MESH", a->meshes,
-      "Control meshes: files or generator names (default: the worst cases known, unless --level is quick, "
-      "bumpy:800 and the stock shapes; where no depth is given either, at depths 0, 1 and 4, and small "
-      "meshes at other depths, at unequal ones and with culled faces)");
+  command
+      ->add_option(
+          "MESH", a->meshes,
+          "Control meshes: files or generator names (default: the worst cases known, unless --level is "
+          "quick, "
+          "bumpy:800 and the stock shapes; where no depth is given either, at depths 0, 1 and 4, and small "
+          "meshes at other depths, at unequal ones and with culled faces)")
+      ->check(kNotEmpty);
   add_mesh_options(*command, a->mesh);
   CLI::Option* depth =
       add_number(*command, "--depth", a->depth, 0, 12,

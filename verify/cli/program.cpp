@@ -36,9 +36,9 @@ const CLI::Validator kNotEmpty(
 const CLI::Validator kSeed(
     [](std::string& text) {
       errno = 0;
-      (void)std::strtoull(text.c_str(), nullptr, 0);  // takes -1 for the largest
-      return errno == ERANGE || text.starts_with('-')
-                 ? text + " is no whole number from 0 to 18446744073709551615"
+      (void)std::strtoull(text.c_str(), nullptr, 0);  // takes -1 for the largest, and nothing for 0
+      return errno == ERANGE || text.empty() || text.starts_with('-')
+                 ? "'" + text + "' is no whole number from 0 to 18446744073709551615"
                  : std::string();
     },
     "");

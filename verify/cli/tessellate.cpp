@@ -242,7 +242,8 @@ void add_tessellate(CLI::App& app, int& exit_code) {
           "Faces at sharp edges inside a surface of triangles, or at semi-sharp ones, stay on the processor")
       ->excludes("--engine");
   auto* eye =
-      command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)");
+      command->add_option("--camera", a->camera, "EYE[:TARGET[:UP]], as in 0,0,4:0,0,0:0,1,0 (the default)")
+          ->check(kNotEmpty);
   auto* pixels = add_number(*command, "--pixels", a->depths.target_pixels, 1e-6, 1e6,
                             "project-sphere: largest size of a triangle on the screen");
   auto* angles =

@@ -106,9 +106,9 @@ TEST_F(ShaderDoor, OfEveryKindOfTextTheLinesAreSeen) {
           "\xEF\xBB\xBF#pragma limitcheck scheme loop" + end + "#pragma limitcheck wish" + end + other);
     const Outcome o = run("audit --shader wrong.glsl quad-cube --depth 1 --level quick", 2);
     EXPECT_TRUE(says(o.err, "wrong.glsl:2: ")) << o.err;
+    write("wrong.glsl", "// text" + end + std::string(1, '\0') + text);
+    EXPECT_TRUE(says(run("audit --shader wrong.glsl quad-cube --depth 1", 2).err, "wrong.glsl:2: a NUL"));
   }
-  write("wrong.glsl", "// text\n" + std::string(1, '\0') + text);
-  EXPECT_TRUE(says(run("audit --shader wrong.glsl quad-cube --depth 1", 2).err, "wrong.glsl:2: a NUL"));
 }
 
 // llvmpipe is wrong in such groups; another device may do them.
@@ -126,6 +126,10 @@ TEST_F(ShaderDoor, QuadsAloneAreNoFault) {
       audited(file + " quad-torus prism:5 --depth 1 --level quick", 2);  // not all was looked at
   EXPECT_EQ(status(report, "positions"), "held");
   EXPECT_EQ(status(report, "tessellates", "prism:5"), "not-supported");
+  // Nor does the report say that it never looked at them.
+  const std::string never = report["coverage"][0]["never"].dump();
+  EXPECT_TRUE(says(never, "faces, a face of 4 corners") || says(never, "5 faces"));
+  EXPECT_FALSE(says(never, "a face of 3 corners") || says(never, "a triangle by"));
 }
 
 // A driver may end the loop, as llvmpipe does after some turns: then the points are wrong; or the time is over.

@@ -257,12 +257,12 @@ ShaderSource read_shader(const std::string& named) {
   }
   // Compilers count lines as we do: at CR, LF and CR LF; they take no mark of the byte order and stop at a NUL.
   if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
+  for (std::size_t at = 0; (at = content.find('\r', at)) != std::string::npos;)
+    content.replace(at, content.compare(at, 2, "\r\n") == 0 ? 2 : 1, "\n");
   if (const std::size_t nul = content.find('\0'); nul != std::string::npos)
     refuse(fmt::format(
         "{}:{}: a NUL, which no text has", file,
         1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(nul), '\n')));
-  for (std::size_t at = 0; (at = content.find('\r', at)) != std::string::npos;)
-    content.replace(at, content.compare(at, 2, "\r\n") == 0 ? 2 : 1, "\n");
   std::istringstream lines(content);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {

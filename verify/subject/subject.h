@@ -50,7 +50,7 @@ extern "C" {
 /* The version of this interface. */
 #define LC_SUBJECT_ABI 2u
 
-/* Whether the host knows a member that stands behind `size`: of those that came after 0.2.0 an older one has none. */
+/* Whether the host has this member, one of those behind `size`: 0.2.0 lacks those that came later. */
 #define LC_KNOWS(structure, member) \
   ((structure)->size >= (size_t)((const char*)(&(structure)->member + 1) - (const char*)(structure)))
 

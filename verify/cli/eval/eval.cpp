@@ -249,6 +249,7 @@ void add_eval(CLI::App& app, int& exit_code) {
                              ->add_option("--subject", request->subject,
                                           "Show what this subject (as `limitcheck audit` takes it) delivers "
                                           "at the point, beside what it should; exit code 1 if it is wrong")
+                             ->check(kNotEmpty)
                              ->excludes(points);
   add_number(*command, "--depth", request->depth, 0, 12,
              "With --subject: subdivision depth of every face, or of the deepest one")

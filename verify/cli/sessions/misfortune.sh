@@ -343,3 +343,19 @@ NamesMayHaveSpacesQuotesAndOtherAlphabets() {
   holds -s again
   while read -r line; do each 1 <<<"$line"; done <again
 }
+
+# A variable of a script that is not set: nothing is audited, evaluated or written in the place of what it should have named.
+EmptyNamesAreRefused() {
+  refused '' <<'E'
+audit --shader '' octahedron
+audit --program '' octahedron
+audit '' octahedron
+audit naive '' --depth 0
+hunt '' --cases 1
+eval octahedron 0 0 0 --subject ''
+tessellate octahedron --seed ''
+tessellate octahedron --seed -1
+tessellate octahedron --strategy view --camera ''
+tessellate octahedron -o ''
+E
+}
